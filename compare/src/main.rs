@@ -1,0 +1,2 @@
+//! `snell`.
+fn main() {}

@@ -1,0 +1,28 @@
+//! What is rendered: scenes, shapes, media, cameras, environments, and the
+//! form in which every renderer is asked and answers.
+//!
+//! Data only. Nothing here bends light and nothing here knows a GPU: the two
+//! renderers, `reference` and `realtime`, share these descriptions and no
+//! optics, so that their agreement means something.
+
+pub mod camera;
+pub mod environment;
+pub mod eta;
+pub mod layer;
+pub mod medium;
+pub mod mesh;
+pub mod plan;
+pub mod rendering;
+pub mod scene;
+pub mod shape;
+
+pub use camera::{Camera, Projection, Ray};
+pub use environment::{Cube, Environment};
+pub use eta::Eta;
+pub use layer::{Layer, LayerName, Layers};
+pub use medium::{Dispersion, Medium, MediumId};
+pub use mesh::Mesh;
+pub use plan::Plan;
+pub use rendering::{Rendering, View};
+pub use scene::{Object, Scene, Surface};
+pub use shape::Shape;
