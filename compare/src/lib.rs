@@ -1,1 +1,3 @@
 //! The judgement.
+
+pub mod results;

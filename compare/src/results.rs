@@ -1,0 +1,187 @@
+//! What a study leaves behind: `results.jsonl`, one flat row per number, and
+//! `study.json`, what belongs to a whole run (plans, images, provenance).
+//!
+//! Both carry a schema name; within a major version fields are only added.
+
+mod store;
+
+pub use store::{ResultsError, read_rows, read_study, write_rows, write_study};
+
+use scenes::Plan;
+use scenes::rendering::Pass;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+/// Schema of a [`ResultRow`].
+pub const RESULT_SCHEMA: &str = "snell.result/1";
+/// Schema of a [`Study`].
+pub const STUDY_SCHEMA: &str = "snell.study/1";
+/// Name of the row file in a results directory.
+pub const RESULTS_FILE: &str = "results.jsonl";
+/// Name of the study file in a results directory.
+pub const STUDY_FILE: &str = "study.json";
+/// Method name of rows that describe the exact renderer itself.
+pub const REFERENCE: &str = "reference";
+
+/// What a row counts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum RowKind {
+    /// An error against the reference.
+    #[default]
+    Error,
+    /// A duration, milliseconds: metric `time_timestamp_ms`, `time_wall_ms`
+    /// or `time_cpu_ms`, the whole frame.
+    Time,
+    /// A deterministic count: passes, bytes, rays, flagged pixels.
+    Count,
+}
+
+/// Whether a value can be used.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Status {
+    /// The value is the metric.
+    #[default]
+    Ok,
+    /// Both images are equal bit for bit; the value is known without computing
+    /// it (0, or nothing where the metric would be infinite).
+    Identical,
+    /// The metric has no value for this pair, such as SSIM below 11 pixels.
+    Undefined,
+    /// An input holds NaN or infinity: no number is made of it.
+    Invalid,
+}
+
+/// One number of a study: a row of `results.jsonl` and of `results.csv`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct ResultRow {
+    /// [`RESULT_SCHEMA`].
+    pub schema: String,
+    /// What is counted.
+    pub kind: RowKind,
+    /// Content id of the job; rows of one image and its times share it.
+    pub id: String,
+    /// Name of the scene.
+    pub scene: String,
+    /// Method id, or [`REFERENCE`] for the exact renderer's own curve.
+    pub method: String,
+    /// Parameters of the method, defaults included. The exact renderer's
+    /// curve has `samples` here.
+    pub parameters: BTreeMap<String, String>,
+    /// Frame of the sequence.
+    pub frame: u32,
+    /// Width, pixels.
+    pub width_px: u32,
+    /// Height, pixels.
+    pub height_px: u32,
+    /// Seed of the random numbers, if any were drawn.
+    pub seed: Option<u64>,
+    /// Adapter or CPU that made the candidate.
+    pub adapter: String,
+    /// True when the adapter is a CPU in disguise.
+    pub software: bool,
+    /// Content id of the reference that was compared with.
+    pub reference_id: String,
+    /// Metric, with its constants in its name.
+    pub metric: String,
+    /// Unit: `""` for a ratio, `deg`, `dB`, `ms`, `B`, `radiance`.
+    pub unit: String,
+    /// The number; `null` where `status` says why there is none.
+    pub value: Option<f64>,
+    /// Lower end of the 95 % interval, where one is known.
+    pub ci_lo: Option<f64>,
+    /// Upper end of the 95 % interval.
+    pub ci_hi: Option<f64>,
+    /// Pixels, frames or samples behind the value.
+    pub n: u64,
+    /// Whether the value can be used.
+    pub status: Status,
+    /// Why there is no value; empty when there is one.
+    pub reason: String,
+}
+
+/// Everything about a study that is not a number per scene and method.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Study {
+    /// [`STUDY_SCHEMA`].
+    pub schema: String,
+    /// Version of snell.
+    pub version: String,
+    /// Commit of the sources, if known.
+    pub commit: String,
+    /// When the study ended, RFC 3339, UTC.
+    pub finished_utc: String,
+    /// Command line that repeats it.
+    pub command: String,
+    /// GPU adapter.
+    pub adapter: String,
+    /// Driver name and version.
+    pub driver: String,
+    /// True when the adapter is a CPU in disguise.
+    pub software: bool,
+    /// Clock that the report plots: `time_wall_ms` on software adapters, else
+    /// `time_timestamp_ms`.
+    pub time_metric: String,
+    /// Seconds the whole study took.
+    pub elapsed_s: f64,
+    /// Scenes in the order of the report.
+    pub scenes: Vec<SceneEntry>,
+    /// Exact and approximate images.
+    pub runs: Vec<Run>,
+    /// Scenes and methods that were asked for and not done, with the reason.
+    pub left_out: Vec<NotDone>,
+}
+
+/// One scene of a study.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct SceneEntry {
+    /// Name, as in the rows.
+    pub name: String,
+    /// Title from the scene file.
+    pub title: String,
+    /// Text of the scene file.
+    pub toml: String,
+    /// Width and height of the judged images, pixels.
+    pub resolution_px: [u32; 2],
+    /// Exposures of HDR-FLIP: start and stop (powers of two) and their number.
+    pub flip_exposures: Option<(f64, f64, u32)>,
+}
+
+/// One image: by the exact renderer (`method` = [`REFERENCE`]) or a method.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Run {
+    /// Content id, as in the rows.
+    pub id: String,
+    /// Scene.
+    pub scene: String,
+    /// Method id or [`REFERENCE`].
+    pub method: String,
+    /// Parameters.
+    pub parameters: BTreeMap<String, String>,
+    /// EXR with all layers, relative to the results directory.
+    pub image: PathBuf,
+    /// What was to run and what was left out.
+    pub plan: Plan,
+    /// What ran, recorded where it ran.
+    pub passes: Vec<Pass>,
+    /// Deterministic counts: rays, samples, texels, bytes, passes.
+    pub counters: BTreeMap<String, u64>,
+    /// Metrics that this pair does not have, with the reason.
+    pub metrics_left_out: Vec<NotDone>,
+}
+
+/// Something that was not done.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct NotDone {
+    /// What: a scene, `scene × method`, a metric.
+    pub what: String,
+    /// Why, in one sentence.
+    pub reason: String,
+}
