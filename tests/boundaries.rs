@@ -1,0 +1,74 @@
+//! Who may depend on whom. The two renderers share descriptions and no optics;
+//! if one could call the other, their agreement would mean nothing.
+#![allow(clippy::unwrap_used, reason = "a test that cannot read the manifest must fail")]
+
+use serde_json::Value;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+type Dependencies = BTreeMap<String, BTreeSet<String>>;
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().to_owned()
+}
+
+/// Names each package of the workspace may use: ordinary and build
+/// dependencies, not those of its own tests.
+fn dependencies() -> Dependencies {
+    let output = Command::new(env!("CARGO"))
+        .args(["metadata", "--no-deps", "--offline", "--format-version", "1"])
+        .current_dir(root())
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let metadata: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let name = |value: &Value| value["name"].as_str().unwrap().to_owned();
+    let used = |package: &Value| {
+        let list = package["dependencies"].as_array().unwrap();
+        list.iter().filter(|used| used["kind"] != "dev").map(name).collect()
+    };
+    metadata["packages"].as_array().unwrap().iter().map(|p| (name(p), used(p))).collect()
+}
+
+/// Every sentence about the layers that the manifests contradict.
+fn violations(dependencies: &Dependencies) -> Vec<String> {
+    let allowed: [(&str, &[&str]); 5] = [
+        ("snell-scenes", &[]),
+        ("snell-reference", &["snell-scenes"]),
+        ("snell-realtime", &["snell-scenes"]),
+        ("snell", &["snell-scenes", "snell-reference", "snell-realtime"]),
+        ("snell-tests", &["snell-scenes", "snell-reference", "snell-realtime", "snell"]),
+    ];
+    let mut wrong = Vec::new();
+    for (package, used) in dependencies {
+        let Some((_, may_use)) = allowed.iter().find(|(name, _)| name == package) else {
+            wrong.push(format!("{package} is a package this test does not know"));
+            continue;
+        };
+        for name in used {
+            let ours = name == "snell" || name.starts_with("snell-");
+            if ours && !may_use.contains(&name.as_str()) {
+                wrong.push(format!("{package} must not use {name}"));
+            }
+            if name == "wgpu" && package != "snell-realtime" {
+                wrong.push(format!("{package} must not know wgpu"));
+            }
+        }
+    }
+    wrong
+}
+
+#[test]
+fn packages_use_only_what_lies_below_them() {
+    assert_eq!(violations(&dependencies()), [""; 0]);
+}
+
+#[test]
+fn a_renderer_that_calls_the_other_is_noticed() {
+    let mut dependencies = dependencies();
+    dependencies.get_mut("snell-realtime").unwrap().insert("snell-reference".into());
+    dependencies.get_mut("snell").unwrap().insert("wgpu".into());
+    let expected = ["snell must not know wgpu", "snell-realtime must not use snell-reference"];
+    assert_eq!(violations(&dependencies), expected);
+}
