@@ -7,6 +7,7 @@ mod store;
 
 pub use store::{ResultsError, read_rows, read_study, write_rows, write_study};
 
+use crate::metric::Mask;
 use scenes::Plan;
 use scenes::rendering::Pass;
 use serde::{Deserialize, Serialize};
@@ -89,6 +90,8 @@ pub struct ResultRow {
     pub metric: String,
     /// Unit: `""` for a ratio, `deg`, `dB`, `ms`, `B`, `radiance`.
     pub unit: String,
+    /// Pixels that were judged.
+    pub mask: Mask,
     /// The number; `null` where `status` says why there is none.
     pub value: Option<f64>,
     /// Lower end of the 95 % interval, where one is known.

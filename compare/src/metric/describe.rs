@@ -1,0 +1,216 @@
+//! What each metric is: name, formula, unit, range, direction, source.
+
+use super::{Encoding, Selection};
+
+/// A metric that a pair of images may have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[expect(missing_docs, reason = "each is described by `Metric::describe`")]
+pub enum Metric {
+    ExitAngleMedian,
+    ExitAngleP95,
+    ExitAngleMean,
+    ExitWithin1Deg,
+    ExitUnmatched,
+    RelMse,
+    RelMseTrimmed,
+    HdrFlip,
+    LdrFlip,
+    Bias,
+    Mae,
+    Mse,
+    Rmse,
+    MaxAbs,
+    Mape,
+    Smape,
+    Pu21Psnr,
+    PsnrToneMapped,
+    SsimToneMapped,
+    Psnr,
+    Ssim,
+}
+
+/// Which way a metric improves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Better {
+    /// Smaller is better.
+    Lower,
+    /// Larger is better.
+    Higher,
+    /// The closer to zero the better.
+    NearZero,
+}
+
+/// A metric in words.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Description {
+    /// Name in results; the radiance scale of PU21 is appended to its name.
+    pub name: &'static str,
+    /// Definition; d = t - r, candidate t, reference r, all in f64.
+    pub formula: &'static str,
+    /// Unit; empty for a ratio.
+    pub unit: &'static str,
+    /// Possible values.
+    pub range: &'static str,
+    /// Which way it improves.
+    pub better: Better,
+    /// Where it is defined.
+    pub source: &'static str,
+}
+
+use Better::{Higher, Lower, NearZero};
+
+const fn new(
+    name: &'static str,
+    unit: &'static str,
+    range: &'static str,
+    better: Better,
+    formula: &'static str,
+    source: &'static str,
+) -> Description {
+    Description { name, formula, unit, range, better, source }
+}
+
+const ANGLE: &str = "∠ = atan2(|a × b|, a · b) where both chains leave";
+const FLIP: &str = "Andersson et al. 2020 (LDR), 2021 (HDR); FLIP 1.7";
+const WANG: &str = "Wang et al. 2004, IEEE TIP 13(4)";
+const PLAIN: &str = "elementary";
+const TONE_MAPPED_PSNR: &str =
+    "10 log10(255² / mean d²) of 8-bit code values: x/(1+x), sRGB curve, rounded half up";
+const TONE_MAPPED_SSIM: &str =
+    "mean SSIM of the channels' 8-bit code values: x/(1+x), sRGB curve, rounded half up";
+
+impl Metric {
+    /// Every metric, figures of merit first.
+    pub const ALL: [Self; 21] = [
+        Self::ExitAngleMedian,
+        Self::ExitAngleP95,
+        Self::ExitAngleMean,
+        Self::ExitWithin1Deg,
+        Self::ExitUnmatched,
+        Self::RelMse,
+        Self::RelMseTrimmed,
+        Self::HdrFlip,
+        Self::LdrFlip,
+        Self::Bias,
+        Self::Mae,
+        Self::Mse,
+        Self::Rmse,
+        Self::MaxAbs,
+        Self::Mape,
+        Self::Smape,
+        Self::Pu21Psnr,
+        Self::PsnrToneMapped,
+        Self::SsimToneMapped,
+        Self::Psnr,
+        Self::Ssim,
+    ];
+
+    /// Name, formula, unit, range, direction and source.
+    #[must_use]
+    pub const fn describe(self) -> Description {
+        let up = "0 upwards";
+        match self {
+            Self::ExitAngleMedian => {
+                new("exit_angle_median_deg", "deg", "0 to 180", Lower, ANGLE, PLAIN)
+            }
+            Self::ExitAngleP95 => new("exit_angle_p95_deg", "deg", "0 to 180", Lower, ANGLE, PLAIN),
+            Self::ExitAngleMean => {
+                new("exit_angle_mean_deg", "deg", "0 to 180", Lower, ANGLE, PLAIN)
+            }
+            Self::ExitWithin1Deg => {
+                new("exit_angle_within_1deg", "", "0 to 1", Higher, "share of ∠ <= 1°", PLAIN)
+            }
+            Self::ExitUnmatched => {
+                let formula = "pixels with an exit on one side only / on any side";
+                new("exit_unmatched", "", "0 to 1", Lower, formula, PLAIN)
+            }
+            Self::RelMse => {
+                let source = "Rousselle, Knaus & Zwicker 2011, ACM TOG 30(6)";
+                new("relmse_e1e-2", "", up, Lower, "mean d² / (r² + 0.01)", source)
+            }
+            Self::RelMseTrimmed => {
+                let formula = "relmse_e1e-2 without the ⌊N/1000⌋ worst pixels";
+                new("relmse_e1e-2_trim0.1", "", up, Lower, formula, PLAIN)
+            }
+            Self::HdrFlip => {
+                let formula = "mean HDR-FLIP, ACES, 67.02 pixels per degree, pinned exposures";
+                new("flip_hdr", "", "0 to 1", Lower, formula, FLIP)
+            }
+            Self::LdrFlip => {
+                let formula = "mean LDR-FLIP, 67.02 pixels per degree";
+                new("flip_ldr", "", "0 to 1", Lower, formula, FLIP)
+            }
+            Self::Bias => new("bias", "radiance", "any", NearZero, "mean d", PLAIN),
+            Self::Mae => new("mae", "radiance", up, Lower, "mean |d|", PLAIN),
+            Self::Mse => new("mse", "radiance²", up, Lower, "mean d²", PLAIN),
+            Self::Rmse => new("rmse", "radiance", up, Lower, "√(mean d²)", PLAIN),
+            Self::MaxAbs => new("max_abs", "radiance", up, Lower, "max |d|", PLAIN),
+            Self::Mape => new("mape_e1e-2", "", up, Lower, "mean |d| / (|r| + 0.01)", PLAIN),
+            Self::Smape => {
+                let formula = "mean 2|d| / (|r| + |t| + 0.02)";
+                new("smape_e1e-2", "", "0 to 2", Lower, formula, PLAIN)
+            }
+            Self::Pu21Psnr => {
+                let formula = "10 log10(256² / mean d²) of PU21-encoded channels";
+                new("pu21_psnr", "dB", "any", Higher, formula, "Mantiuk & Azimi 2021, PCS")
+            }
+            Self::PsnrToneMapped => {
+                new("psnr_reinhard_srgb8", "dB", "any", Higher, TONE_MAPPED_PSNR, PLAIN)
+            }
+            Self::SsimToneMapped => {
+                new("ssim_reinhard_srgb8", "", "-1 to 1", Higher, TONE_MAPPED_SSIM, WANG)
+            }
+            Self::Psnr => {
+                new("psnr", "dB", "any", Higher, "10 log10(1 / mean d²) of code values", PLAIN)
+            }
+            Self::Ssim => {
+                new("ssim", "", "-1 to 1", Higher, "mean SSIM of the channels' code values", WANG)
+            }
+        }
+    }
+
+    /// Name in results, with every constant that the selection chooses.
+    #[must_use]
+    pub fn name(self, selection: &Selection) -> String {
+        let name = self.describe().name;
+        match self {
+            Self::Pu21Psnr => format!("{name}_x{}", selection.nits_per_unit),
+            Self::RelMse if selection.frozen.is_some() => format!("{name}_frozen"),
+            _ => name.to_owned(),
+        }
+    }
+
+    /// True for what the exit layers answer, not the colours.
+    #[must_use]
+    pub const fn is_of_exits(self) -> bool {
+        matches!(
+            self,
+            Self::ExitAngleMedian
+                | Self::ExitAngleP95
+                | Self::ExitAngleMean
+                | Self::ExitWithin1Deg
+                | Self::ExitUnmatched
+        )
+    }
+
+    /// True if images of that encoding can have this metric.
+    #[must_use]
+    pub fn takes(self, encoding: Encoding) -> bool {
+        match self {
+            Self::LdrFlip | Self::Psnr | Self::Ssim => encoding == Encoding::Display,
+            Self::HdrFlip | Self::Pu21Psnr | Self::PsnrToneMapped | Self::SsimToneMapped => {
+                encoding == Encoding::Linear
+            }
+            _ => true,
+        }
+    }
+
+    /// The metric of that name in results, if it is one of ours.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|metric| {
+            let own = metric.describe().name;
+            name == own || (*metric == Self::Pu21Psnr && name.starts_with(own))
+        })
+    }
+}
