@@ -4,10 +4,8 @@
 use super::sum::{mean, quantile};
 
 /// Angle between two directions of any length, radians, 0 to π:
-/// atan2(|a x b|, a · b), exact near 0 and π where acos is not.
-///
-/// Source: Kahan, *How futile are mindless assessments of roundoff in
-/// floating-point computation?*, 2006, §12 (the cross-product form).
+/// atan2(|a x b|, a · b), which keeps its digits near 0 and π where the arc
+/// cosine loses half of them.
 #[must_use]
 pub fn angle_rad(a: [f64; 3], b: [f64; 3]) -> f64 {
     let cross = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
