@@ -8,6 +8,7 @@
 pub mod camera;
 pub mod environment;
 pub mod eta;
+pub mod export;
 pub mod layer;
 pub mod medium;
 pub mod mesh;
