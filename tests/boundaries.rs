@@ -72,3 +72,40 @@ fn a_renderer_that_calls_the_other_is_noticed() {
     let expected = ["snell must not know wgpu", "snell-realtime must not use snell-reference"];
     assert_eq!(violations(&dependencies), expected);
 }
+
+/// Sources below a folder that name a terminal stream outside comments. (The
+/// printing macros are lints; this finds what they do not cover.)
+fn files_that_reach_a_terminal(folder: &str) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    let mut folders = vec![root().join(folder)];
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|e| e == "rs") {
+                let text = std::fs::read_to_string(&path).unwrap();
+                let mut code = text.lines().filter(|line| !line.trim_start().starts_with("//"));
+                if code.any(|line| line.contains("io::stdout") || line.contains("io::stderr")) {
+                    found.push(path.strip_prefix(root()).unwrap().to_owned());
+                }
+            }
+        }
+    }
+    found
+}
+
+/// Libraries answer with values; only the command line writes to a terminal.
+#[test]
+fn only_the_command_line_prints() {
+    for library in ["scenes/src", "reference/src", "realtime/src"] {
+        let printing = files_that_reach_a_terminal(library);
+        assert!(printing.is_empty(), "{printing:?} print");
+    }
+    let printing = files_that_reach_a_terminal("compare/src");
+    assert!(!printing.is_empty(), "the search finds nothing, so it would not find a fault");
+    for path in printing {
+        let may = ["compare/src/cli", "compare/src/progress.rs"];
+        assert!(may.iter().any(|place| path.starts_with(place)), "{path:?} prints");
+    }
+}

@@ -1,5 +1,6 @@
 //! What can stop a command: where, what, and what to write instead.
 
+use crate::image_pair::ImagePairError;
 use std::path::{Path, PathBuf};
 
 /// Why a command could not do what it was asked. Exit status 2.
@@ -14,6 +15,17 @@ pub enum Error {
         what: &'static str,
         /// The system's answer.
         source: std::io::Error,
+    },
+    /// Image files that cannot be compared.
+    #[error(transparent)]
+    ImagePair(#[from] ImagePairError),
+    /// An image that no number can be made of.
+    #[error("{}: {why}", path.display())]
+    Image {
+        /// Which one.
+        path: PathBuf,
+        /// What is wrong with it.
+        why: String,
     },
     /// Standard output is gone or full.
     #[error("the answer cannot be written to standard output: {0}")]

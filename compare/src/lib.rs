@@ -1,10 +1,12 @@
 //! The judgement.
 
 pub mod cache;
+pub mod cli;
 mod error;
 pub mod image_pair;
 pub mod jobs;
 pub mod metric;
+pub mod progress;
 pub mod results;
 
 pub use error::Error;

@@ -1,2 +1,7 @@
-//! `snell`.
-fn main() {}
+//! `snell`: how wrong is real-time refraction, and what does it cost?
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    compare::cli::main()
+}

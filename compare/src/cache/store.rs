@@ -132,7 +132,10 @@ mod tests {
     }
 
     fn write(text: &'static str) -> impl FnOnce(&Path) -> Result<(), Error> {
-        move |folder| Ok(fs::write(folder.join("image"), text).unwrap())
+        move |folder| {
+            fs::write(folder.join("image"), text).unwrap();
+            Ok(())
+        }
     }
 
     #[test]
