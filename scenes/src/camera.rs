@@ -59,6 +59,28 @@ pub struct Basis {
 }
 
 impl Camera {
+    /// A camera of 35 degrees that sees a box whole, from the front, the right
+    /// and a little above; five per cent of the image's height stay free.
+    #[must_use]
+    pub fn fitted(bounds: [DVec3; 2], resolution_px: [u32; 2]) -> Self {
+        let [low, high] = bounds;
+        let centre = 0.5 * (low + high);
+        let radius_m = (0.5 * (high - low).length()).max(f64::MIN_POSITIVE);
+        let half_angle = 0.5 * 35f64.to_radians();
+        let aspect = f64::from(resolution_px[0]) / f64::from(resolution_px[1]);
+        // The narrower side of the image decides.
+        let half_angle_across = (half_angle.tan() * aspect.min(1.0)).atan();
+        let distance_m = 1.05 * radius_m / half_angle_across.sin();
+        let towards_eye = DVec3::new(0.35, 0.3, 1.0).normalize();
+        Self {
+            eye: centre + distance_m * towards_eye,
+            target: centre,
+            up: DVec3::Y,
+            projection: Projection::Perspective { vertical_fov_deg: 35.0 },
+            resolution_px,
+        }
+    }
+
     /// The camera's axes in world space.
     #[must_use]
     pub fn basis(&self) -> Basis {

@@ -9,6 +9,7 @@ pub mod camera;
 pub mod environment;
 pub mod eta;
 pub mod export;
+pub mod import;
 pub mod layer;
 pub mod medium;
 pub mod mesh;

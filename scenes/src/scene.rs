@@ -227,6 +227,30 @@ impl Scene {
         f64::from(frame) * self.sequence.seconds_per_frame
     }
 
+    /// Axis-aligned box around every bounded object at frame 0, world space;
+    /// inverted infinities when there is none.
+    #[must_use]
+    pub fn bounds(&self) -> [DVec3; 2] {
+        let mut bounds = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+        for object in &self.objects {
+            let [low, high] = object.shape.bounds();
+            if !(low.is_finite() && high.is_finite()) {
+                continue;
+            }
+            for corner in 0..8 {
+                let pick = |bit: u32, l: f64, h: f64| if corner >> bit & 1 == 0 { l } else { h };
+                let at = DVec3::new(
+                    pick(0, low.x, high.x),
+                    pick(1, low.y, high.y),
+                    pick(2, low.z, high.z),
+                );
+                let placed = object.world_from_object.transform_point3(at);
+                bounds = [bounds[0].min(placed), bounds[1].max(placed)];
+            }
+        }
+        bounds
+    }
+
     /// Medium of a dielectric object, `None` for opaque ones.
     #[must_use]
     pub fn medium_of(&self, object: &Object) -> Option<&Medium> {

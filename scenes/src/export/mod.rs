@@ -201,4 +201,29 @@ mod tests {
         assert!(write(&nested, Format::Mitsuba, &folder.path().join("out")).is_err());
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
     }
+
+    /// What glTF can say survives the way out and back.
+    #[test]
+    fn gltf_written_is_gltf_read() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut sent = scene(tetrahedron());
+        sent.media[1].absorption_per_m = DVec3::new(0.5, 1.0, 2.0);
+        sent.media[1].dispersion = crate::Dispersion::Gltf { dispersion: 0.3 };
+        let main = write(&sent, Format::Gltf, &folder.path().join("out")).unwrap();
+        let back = crate::import::read(&main, Environment::Uniform(DVec3::ONE), [64, 48]).unwrap();
+        assert_eq!(back.objects[0].shape, sent.objects[0].shape);
+        assert_eq!(back.objects[0].world_from_object, sent.objects[0].world_from_object);
+        let medium = back.medium_of(&back.objects[0]).unwrap();
+        assert!((medium.eta.get() - 1.5).abs() < 1e-6);
+        assert!((medium.absorption_per_m - sent.media[1].absorption_per_m).length() < 1e-6);
+        let crate::Dispersion::Gltf { dispersion } = medium.dispersion else {
+            panic!("{medium:?}")
+        };
+        assert!((dispersion - 0.3).abs() < 1e-6);
+        let (ray, sent_ray) = (
+            back.camera.ray_through([10.0, 20.0].into()),
+            sent.camera.ray_through([10.0, 20.0].into()),
+        );
+        assert!((ray.direction - sent_ray.direction).length() < 1e-6);
+    }
 }
