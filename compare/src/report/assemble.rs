@@ -1,0 +1,308 @@
+//! From rows and image files to what a report shows.
+
+use super::number::{bytes, digits, duration};
+use super::numbers::{Numbers, is_better, usable};
+use super::page::{Cell, MethodView, Page, SceneView};
+use super::plot::{Plot, Point};
+use super::scene_images::SceneImages;
+use super::{ReportError, verdict, viewer};
+use crate::metric::{Better, Mask, Metric};
+use crate::results::{REFERENCE, ResultRow, RowKind, Run, SceneEntry, Status, Study};
+use std::path::Path;
+
+/// Metrics of the verdict table: figures of merit first.
+pub(super) const COLUMNS: [(Metric, &str, &str); 5] = [
+    (Metric::ExitAngleMedian, "exit angle, median", "°"),
+    (Metric::ExitAngleP95, "95th percentile", "°"),
+    (Metric::ExitWithin1Deg, "within 1°", "%"),
+    (Metric::RelMse, "relMSE ε=0.01", ""),
+    (Metric::HdrFlip, "FLIP", ""),
+];
+
+/// Reads the images, makes every picture, and fills a page.
+pub(super) fn assemble(
+    directory: &Path,
+    study: Study,
+    rows: &[ResultRow],
+) -> Result<(Page, Vec<SceneImages>), ReportError> {
+    let numbers = Numbers::new(rows);
+    let styles = styles(&study);
+    let mut scenes = Vec::new();
+    let mut images = Vec::new();
+    for (index, entry) in study.scenes.iter().enumerate() {
+        let read = SceneImages::read(directory, &study, entry)?;
+        scenes.push(scene_view(index, entry, &study, &numbers, &styles, &read));
+        images.push(read);
+    }
+    let (viewer_json, size_note) = viewer::fill(&mut scenes, &images);
+    let page = Page {
+        headline: verdict::sentences(&study, &numbers),
+        columns: COLUMNS.map(|(_, head, unit)| (head, unit)).to_vec(),
+        metrics: descriptions(),
+        scenes,
+        viewer_json,
+        size_note,
+        study,
+    };
+    Ok((page, images))
+}
+
+/// Methods in order of first appearance: their place is their style.
+fn styles(study: &Study) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    for run in study.runs.iter().filter(|run| run.method != REFERENCE) {
+        let name = display_name(study, run);
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    names
+}
+
+/// Method id, and the parameters in which runs of it on one scene differ.
+pub(super) fn display_name(study: &Study, run: &Run) -> String {
+    let siblings: Vec<&Run> = study
+        .runs
+        .iter()
+        .filter(|other| other.scene == run.scene && other.method == run.method)
+        .collect();
+    let differs = |name: &str, value: &String| {
+        siblings.iter().any(|other| other.parameters.get(name) != Some(value))
+    };
+    let own: Vec<String> = run
+        .parameters
+        .iter()
+        .filter(|(name, value)| differs(name, value))
+        .map(|(name, value)| format!("{name}={value}"))
+        .collect();
+    if own.is_empty() { run.method.clone() } else { format!("{} {}", run.method, own.join(" ")) }
+}
+
+/// Runs of the approximations on a scene, in the order of the study.
+pub(super) fn methods_of<'a>(study: &'a Study, scene: &str) -> Vec<&'a Run> {
+    study.runs.iter().filter(|run| run.scene == scene && run.method != REFERENCE).collect()
+}
+
+fn scene_view(
+    index: usize,
+    entry: &SceneEntry,
+    study: &Study,
+    numbers: &Numbers,
+    styles: &[String],
+    images: &SceneImages,
+) -> SceneView {
+    let runs = methods_of(study, &entry.name);
+    let mut methods: Vec<MethodView> = runs
+        .iter()
+        .map(|run| method_view(run, display_name(study, run), numbers, study, styles))
+        .collect();
+    mark_best(&mut methods, &runs, numbers, study);
+    for (method, picture) in methods.iter_mut().zip(&images.methods) {
+        method.pictures = picture.as_ref().map(|image| image.pictures(images.ev));
+    }
+    let reference_run =
+        study.runs.iter().find(|run| run.scene == entry.name && run.method == REFERENCE);
+    SceneView {
+        entry: entry.clone(),
+        index,
+        ev: images.ev,
+        reference: images.reference_picture(),
+        reference_facts: reference_run.map(facts).unwrap_or_default(),
+        plots: plots(entry, study, &runs, numbers, styles),
+        methods,
+        data: None,
+    }
+}
+
+fn facts(run: &Run) -> Vec<String> {
+    let counters = run.counters.iter().map(|(name, value)| format!("{name} = {value}"));
+    run.parameters.iter().map(|(n, v)| format!("{n} = {v}")).chain(counters).collect()
+}
+
+fn method_view(
+    run: &Run,
+    name: String,
+    numbers: &Numbers,
+    study: &Study,
+    styles: &[String],
+) -> MethodView {
+    let style = styles.iter().position(|known| *known == name).unwrap_or(0);
+    let memory = match run.plan.bytes() {
+        0 => run.counters.get("bytes").copied().unwrap_or(0),
+        planned => planned,
+    };
+    let time = numbers.time(run, &study.time_metric);
+    let passes = run.passes.iter().map(|pass| {
+        let times: Vec<String> = pass.times.iter().map(|t| duration(t.milliseconds)).collect();
+        (pass.name.clone(), times.join(", "))
+    });
+    let left_out = run.plan.left_out.iter().map(|left| {
+        let saved = if left.saves_bytes > 0 { bytes(left.saves_bytes) } else { String::new() };
+        (left.what.clone(), left.reason.clone(), saved)
+    });
+    MethodView {
+        style: style % 7,
+        cells: COLUMNS.map(|(metric, ..)| cell(metric, find(numbers, run, metric))).to_vec(),
+        time: Cell {
+            text: time.and_then(usable).map_or("—".to_owned(), duration),
+            note: time.map(|row| format!("{}, {} frames", row.metric, row.n)).unwrap_or_default(),
+            ..Cell::default()
+        },
+        memory: if memory > 0 { bytes(memory) } else { "—".to_owned() },
+        passes: passes.collect(),
+        left_out: left_out.collect(),
+        unsupported: run
+            .plan
+            .unsupported
+            .iter()
+            .map(|u| (u.what.clone(), u.instead.clone()))
+            .collect(),
+        numbers: numbers.of(run).iter().map(|row| number_line(row)).collect(),
+        metrics_left_out: run.metrics_left_out.clone(),
+        parameters: run.parameters.iter().map(|(n, v)| format!("{n} = {v}")).collect(),
+        name,
+        pictures: None,
+    }
+}
+
+fn find<'a>(numbers: &Numbers<'a>, run: &Run, metric: Metric) -> Option<&'a ResultRow> {
+    numbers.find(run, metric.describe().name)
+}
+
+/// Name, value, unit, pixels and note of a row.
+fn number_line(row: &ResultRow) -> [String; 5] {
+    let mask = if row.mask == Mask::Object { ", object only" } else { "" };
+    let value = match (row.value, row.kind) {
+        (Some(value), RowKind::Count) => format!("{value}"),
+        (Some(value), _) => digits(value),
+        (None, _) => "—".to_owned(),
+    };
+    let interval = match (row.ci_lo, row.ci_hi) {
+        (Some(low), Some(high)) => format!("95 %: {} to {} ", digits(low), digits(high)),
+        _ => String::new(),
+    };
+    let note = match row.status {
+        Status::Ok => String::new(),
+        Status::Identical => "identical: ".to_owned(),
+        Status::Undefined => "undefined: ".to_owned(),
+        Status::Invalid => "invalid: ".to_owned(),
+    };
+    [
+        format!("{}{mask}", row.metric),
+        value,
+        row.unit.clone(),
+        row.n.to_string(),
+        format!("{interval}{note}{}", row.reason),
+    ]
+}
+
+fn cell(metric: Metric, row: Option<&ResultRow>) -> Cell {
+    let Some(row) = row else {
+        let note = "not measured".to_owned();
+        return Cell { text: "—".to_owned(), note, ..Cell::default() };
+    };
+    let scale = if metric == Metric::ExitWithin1Deg { 100.0 } else { 1.0 };
+    match usable(row) {
+        Some(value) => {
+            let full = match (row.ci_lo, row.ci_hi) {
+                (Some(low), Some(high)) => format!("{value} ({low} to {high}), n = {}", row.n),
+                _ => format!("{value}, n = {}", row.n),
+            };
+            Cell { text: digits(scale * value), note: full, ..Cell::default() }
+        }
+        None => Cell {
+            text: if row.status == Status::Invalid { "invalid" } else { "—" }.to_owned(),
+            note: row.reason.clone(),
+            invalid: row.status == Status::Invalid,
+            best: false,
+        },
+    }
+}
+
+/// Marks the best value of each column and the fastest frame, where more than
+/// one method was measured.
+fn mark_best(views: &mut [MethodView], runs: &[&Run], numbers: &Numbers, study: &Study) {
+    if runs.len() < 2 {
+        return;
+    }
+    for (column, (metric, ..)) in COLUMNS.into_iter().enumerate() {
+        let value = |i: usize| find(numbers, runs[i], metric).and_then(usable);
+        let best = (0..runs.len())
+            .filter_map(value)
+            .reduce(|a, b| if is_better(metric, b, a) { b } else { a });
+        for (i, view) in views.iter_mut().enumerate() {
+            view.cells[column].best = best.is_some() && value(i) == best;
+        }
+    }
+    let time = |i: usize| numbers.time(runs[i], &study.time_metric).and_then(usable);
+    let fastest = (0..runs.len()).filter_map(time).reduce(f64::min);
+    for (i, view) in views.iter_mut().enumerate() {
+        view.time.best = fastest.is_some() && time(i) == fastest;
+    }
+}
+
+/// Error against time: the image and the exit angle.
+fn plots(
+    entry: &SceneEntry,
+    study: &Study,
+    runs: &[&Run],
+    numbers: &Numbers,
+    styles: &[String],
+) -> Vec<(String, String)> {
+    let mut plots = Vec::new();
+    for (metric, label) in [
+        (Metric::RelMse, "relMSE ε=0.01 (image)"),
+        (Metric::ExitAngleMedian, "median exit-angle error, degrees"),
+    ] {
+        let points = runs.iter().filter_map(|run| {
+            let row = find(numbers, run, metric)?;
+            let name = display_name(study, run);
+            Some(Point {
+                time_ms: numbers.time(run, &study.time_metric).and_then(usable)?,
+                error: usable(row)?,
+                interval: row.ci_lo.zip(row.ci_hi),
+                style: styles.iter().position(|known| *known == name).unwrap_or(0),
+                name,
+            })
+        });
+        let plot = Plot {
+            title: format!("{}: {label} against time", entry.name),
+            error_label: label.to_owned(),
+            time_label: "milliseconds per frame".to_owned(),
+            points: points.collect(),
+            curve: numbers.reference_curve(&entry.name, metric.describe().name),
+        };
+        let svg = plot.svg();
+        if !svg.is_empty() {
+            plots.push((caption(&plot), svg));
+        }
+    }
+    plots
+}
+
+fn caption(plot: &Plot) -> String {
+    let mut caption = String::from("Lower left is better. Dotted: methods that no other beats.");
+    if !plot.curve.is_empty() {
+        caption.push_str(
+            " Line: the exact CPU renderer's wall time, with samples disjoint from the truth's.",
+        );
+    }
+    let missing = plot.not_shown();
+    if !missing.is_empty() {
+        caption.push_str(&format!(" Not on a logarithmic axis (zero): {}.", missing.join(", ")));
+    }
+    caption
+}
+
+fn descriptions() -> Vec<[String; 6]> {
+    let lines = Metric::ALL.iter().map(|metric| {
+        let d = metric.describe();
+        let better = match d.better {
+            Better::Lower => "lower",
+            Better::Higher => "higher",
+            Better::NearZero => "near zero",
+        };
+        [d.name, d.formula, d.unit, d.range, better, d.source].map(str::to_owned)
+    });
+    lines.collect()
+}

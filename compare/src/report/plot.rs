@@ -1,0 +1,391 @@
+//! Error against time as SVG: log-log axes, markers that differ in shape and
+//! colour, intervals, the Pareto front, the exact renderer's own curve.
+//!
+//! Colours are CSS variables with a fallback, so that the same text works in
+//! the page (light and dark) and as a file of its own (black on white).
+
+use super::number::digits;
+use std::fmt::Write;
+
+/// One method in a plot.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Point {
+    /// Name beside the marker.
+    pub name: String,
+    /// Milliseconds.
+    pub time_ms: f64,
+    /// Error.
+    pub error: f64,
+    /// 95 % interval of the error, where known.
+    pub interval: Option<(f64, f64)>,
+    /// Which marker and colour; the same number means the same method.
+    pub style: usize,
+}
+
+/// Error against time of one scene.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Plot {
+    /// What the plot shows, for those who cannot see it.
+    pub title: String,
+    /// Name and unit of the error.
+    pub error_label: String,
+    /// Name of the clock.
+    pub time_label: String,
+    /// Methods.
+    pub points: Vec<Point>,
+    /// The exact renderer's own curve: milliseconds and error, ascending.
+    pub curve: Vec<(f64, f64)>,
+}
+
+const WIDTH: f64 = 560.0;
+const HEIGHT: f64 = 380.0;
+const LEFT: f64 = 64.0;
+const RIGHT: f64 = 16.0;
+const TOP: f64 = 14.0;
+const BOTTOM: f64 = 48.0;
+const INK: &str = "var(--ink, #1b1f24)";
+const FAINT: &str = "var(--grid, #d8dce2)";
+/// Okabe & Ito's colours that differ for every kind of colour vision, without
+/// the yellow that is lost on white.
+const COLOURS: [&str; 7] =
+    ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7f6a4f"];
+
+/// One logarithmic axis: whole decades around the data, and where they lie.
+struct Axis {
+    low: i32,
+    high: i32,
+    from: f64,
+    to: f64,
+}
+
+impl Axis {
+    fn new(values: impl Iterator<Item = f64>, from: f64, to: f64) -> Option<Self> {
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        for value in values.filter(|value| *value > 0.0 && value.is_finite()) {
+            (low, high) = (low.min(value.log10()), high.max(value.log10()));
+        }
+        if low > high {
+            return None;
+        }
+        let low_decade = (low - 0.05).floor() as i32;
+        let high_decade = ((high + 0.05).ceil() as i32).max(low_decade + 1);
+        Some(Self { low: low_decade, high: high_decade, from, to })
+    }
+
+    fn place(&self, value: f64) -> f64 {
+        let share = (value.log10() - f64::from(self.low)) / f64::from(self.high - self.low);
+        self.from + share.clamp(0.0, 1.0) * (self.to - self.from)
+    }
+
+    /// Whole decades, thinned to at most eight.
+    fn decades(&self) -> impl Iterator<Item = i32> {
+        let step = ((self.high - self.low) as usize).div_ceil(8);
+        (self.low..=self.high).step_by(step)
+    }
+}
+
+impl Plot {
+    /// Points that a logarithmic axis can show.
+    fn shown(&self) -> impl Iterator<Item = &Point> {
+        self.points.iter().filter(|p| p.error > 0.0 && p.time_ms > 0.0)
+    }
+
+    /// Names of the methods whose error or time is zero: a logarithmic axis
+    /// has no place for them.
+    #[must_use]
+    pub fn not_shown(&self) -> Vec<&str> {
+        self.points
+            .iter()
+            .filter(|p| p.error <= 0.0 || p.time_ms <= 0.0)
+            .map(|p| p.name.as_str())
+            .collect()
+    }
+
+    /// Indices of the methods than which none is both faster and better.
+    #[must_use]
+    pub fn pareto(&self) -> Vec<usize> {
+        let beaten = |p: &Point| {
+            self.points.iter().any(|q| {
+                q.time_ms <= p.time_ms
+                    && q.error <= p.error
+                    && (q.time_ms < p.time_ms || q.error < p.error)
+            })
+        };
+        (0..self.points.len()).filter(|&i| !beaten(&self.points[i])).collect()
+    }
+
+    /// The plot as one `<svg>` element; empty when nothing can be shown.
+    #[must_use]
+    pub fn svg(&self) -> String {
+        let times = self.shown().map(|p| p.time_ms).chain(self.curve.iter().map(|c| c.0));
+        let errors = self.shown().map(|p| p.error).chain(self.curve.iter().map(|c| c.1));
+        let (Some(x), Some(y)) =
+            (Axis::new(times, LEFT, WIDTH - RIGHT), Axis::new(errors, HEIGHT - BOTTOM, TOP))
+        else {
+            return String::new();
+        };
+        let mut svg = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" \
+             role=\"img\" font-family=\"system-ui, sans-serif\" font-size=\"12\">\
+             <title>{}</title>",
+            escape(&self.title)
+        );
+        self.draw_axes(&mut svg, &x, &y);
+        self.draw_curve(&mut svg, &x, &y);
+        self.draw_front(&mut svg, &x, &y);
+        self.draw_points(&mut svg, &x, &y);
+        svg.push_str("</svg>");
+        svg
+    }
+
+    fn draw_axes(&self, svg: &mut String, x: &Axis, y: &Axis) {
+        let (bottom, right) = (HEIGHT - BOTTOM, WIDTH - RIGHT);
+        for decade in x.decades() {
+            let at = x.place(10f64.powi(decade));
+            line(svg, [at, TOP, at, bottom], FAINT, "");
+            text(svg, [at, bottom + 16.0], "middle", &power(decade));
+        }
+        for decade in y.decades() {
+            let at = y.place(10f64.powi(decade));
+            line(svg, [LEFT, at, right, at], FAINT, "");
+            text(svg, [LEFT - 6.0, at + 4.0], "end", &power(decade));
+        }
+        for (axis, vertical) in [(x, false), (y, true)] {
+            for decade in axis.low..axis.high {
+                for k in 2..10 {
+                    let at = axis.place(f64::from(k) * 10f64.powi(decade));
+                    if vertical {
+                        line(svg, [LEFT, at, LEFT + 4.0, at], INK, "");
+                    } else {
+                        line(svg, [at, bottom, at, bottom - 4.0], INK, "");
+                    }
+                }
+            }
+        }
+        line(svg, [LEFT, bottom, right, bottom], INK, "");
+        line(svg, [LEFT, TOP, LEFT, bottom], INK, "");
+        text(svg, [(LEFT + right) / 2.0, HEIGHT - 10.0], "middle", &self.time_label);
+        let middle = (TOP + bottom) / 2.0;
+        let _ = write!(
+            svg,
+            "<text transform=\"translate(14 {middle}) rotate(-90)\" text-anchor=\"middle\" \
+             fill=\"{INK}\">{}</text>",
+            escape(&self.error_label)
+        );
+    }
+
+    /// The exact renderer at growing effort.
+    fn draw_curve(&self, svg: &mut String, x: &Axis, y: &Axis) {
+        let curve: Vec<_> = self.curve.iter().filter(|c| c.0 > 0.0 && c.1 > 0.0).collect();
+        if curve.is_empty() {
+            return;
+        }
+        let path: Vec<String> =
+            curve.iter().map(|c| format!("{:.1},{:.1}", x.place(c.0), y.place(c.1))).collect();
+        let _ = write!(
+            svg,
+            "<polyline points=\"{}\" fill=\"none\" stroke=\"{INK}\" stroke-width=\"1.5\"/>",
+            path.join(" ")
+        );
+        for c in &curve {
+            let _ = write!(
+                svg,
+                "<circle cx=\"{:.1}\" cy=\"{:.1}\" r=\"2.5\" fill=\"{INK}\"/>",
+                x.place(c.0),
+                y.place(c.1)
+            );
+        }
+        let (last_x, last_y) =
+            (x.place(curve[curve.len() - 1].0), y.place(curve[curve.len() - 1].1));
+        let (anchor, dx) = if last_x > WIDTH - 130.0 { ("end", -6.0) } else { ("start", 8.0) };
+        text(svg, [last_x + dx, (last_y - 8.0).max(TOP + 10.0)], anchor, "exact renderer");
+    }
+
+    /// Steps through the methods that no other beats in both time and error.
+    fn draw_front(&self, svg: &mut String, x: &Axis, y: &Axis) {
+        let mut front: Vec<&Point> = self.pareto().into_iter().map(|i| &self.points[i]).collect();
+        front.retain(|p| p.error > 0.0 && p.time_ms > 0.0);
+        front.sort_by(|a, b| a.time_ms.total_cmp(&b.time_ms));
+        let mut steps = String::new();
+        let mut previous: Option<f64> = None;
+        for point in front {
+            let (px, py) = (x.place(point.time_ms), y.place(point.error));
+            if let Some(above) = previous {
+                let _ = write!(steps, "{px:.1},{above:.1} ");
+            }
+            let _ = write!(steps, "{px:.1},{py:.1} ");
+            previous = Some(py);
+        }
+        let _ = write!(
+            svg,
+            "<polyline points=\"{}\" fill=\"none\" stroke=\"{INK}\" stroke-width=\"1\" \
+             stroke-dasharray=\"2 4\" opacity=\"0.6\"/>",
+            steps.trim_end()
+        );
+    }
+
+    fn draw_points(&self, svg: &mut String, x: &Axis, y: &Axis) {
+        let mut order: Vec<&Point> = self.shown().collect();
+        order.sort_by(|a, b| b.error.total_cmp(&a.error));
+        let mut labels: Vec<[f64; 3]> = Vec::new();
+        for point in order {
+            let (px, py) = (x.place(point.time_ms), y.place(point.error));
+            let colour = COLOURS[point.style % COLOURS.len()];
+            if let Some((low, high)) = point.interval.filter(|(low, _)| *low > 0.0) {
+                let (top, bottom) = (y.place(high), y.place(low));
+                line(svg, [px, top, px, bottom], colour, " stroke-width=\"1.5\"");
+            }
+            let name = escape(&point.name);
+            let (error, time) = (digits(point.error), super::number::duration(point.time_ms));
+            let _ = write!(
+                svg,
+                "<g fill=\"{colour}\" stroke=\"var(--paper, #fff)\">\
+                 <title>{name}: {error}, {time}</title>{}</g>",
+                marker(point.style, px, py)
+            );
+            let width = point.name.chars().count() as f64 * 6.6;
+            let leftwards = px + 10.0 + width > WIDTH - RIGHT;
+            let (anchor, tx) = if leftwards { ("end", px - 9.0) } else { ("start", px + 9.0) };
+            let span = if leftwards { [tx - width, tx] } else { [tx, tx + width] };
+            let ty = free_height(&labels, span, py + 4.0);
+            labels.push([span[0], span[1], ty]);
+            text(svg, [tx, ty], anchor, &point.name);
+        }
+    }
+}
+
+/// Moves a label down until no other label lies there.
+fn free_height(labels: &[[f64; 3]], [from, to]: [f64; 2], wanted: f64) -> f64 {
+    let mut height = wanted;
+    for _ in 0..labels.len() {
+        let hit = labels
+            .iter()
+            .find(|label| label[0] < to && from < label[1] && (label[2] - height).abs() < 12.0);
+        match hit {
+            Some(label) => height = label[2] + 12.5,
+            None => break,
+        }
+    }
+    height.min(HEIGHT - BOTTOM - 3.0)
+}
+
+/// Seven shapes, so that a print in black and white can be read.
+fn marker(style: usize, x: f64, y: f64) -> String {
+    let polygon = |corners: &[(f64, f64)]| {
+        let points: Vec<String> =
+            corners.iter().map(|(dx, dy)| format!("{:.1},{:.1}", x + dx, y + dy)).collect();
+        format!("<polygon points=\"{}\"/>", points.join(" "))
+    };
+    match style % 7 {
+        0 => format!("<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"5\"/>"),
+        1 => polygon(&[(-4.5, -4.5), (4.5, -4.5), (4.5, 4.5), (-4.5, 4.5)]),
+        2 => polygon(&[(0.0, -6.0), (5.5, 4.5), (-5.5, 4.5)]),
+        3 => polygon(&[(0.0, -6.5), (6.5, 0.0), (0.0, 6.5), (-6.5, 0.0)]),
+        4 => polygon(&[(0.0, 6.0), (5.5, -4.5), (-5.5, -4.5)]),
+        5 => polygon(&[(-6.0, -2.0), (6.0, -2.0), (6.0, 2.0), (-6.0, 2.0)]),
+        _ => polygon(&[(-2.0, -6.0), (2.0, -6.0), (2.0, 6.0), (-2.0, 6.0)]),
+    }
+}
+
+fn line(svg: &mut String, [x1, y1, x2, y2]: [f64; 4], colour: &str, more: &str) {
+    let _ = write!(
+        svg,
+        "<line x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\" \
+         stroke=\"{colour}\"{more}/>"
+    );
+}
+
+fn text(svg: &mut String, [x, y]: [f64; 2], anchor: &str, content: &str) {
+    let _ = write!(
+        svg,
+        "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\" fill=\"{INK}\">{}</text>",
+        escape(content)
+    );
+}
+
+/// A power of ten: plain from 0.01 to 1000, else with a raised exponent.
+fn power(decade: i32) -> String {
+    const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    match decade {
+        -2 => "0.01".to_owned(),
+        -1 => "0.1".to_owned(),
+        0..=3 => 10i32.pow(decade as u32).to_string(),
+        _ => {
+            let sign = if decade < 0 { "⁻" } else { "" };
+            let raised = decade.unsigned_abs().to_string();
+            let raised: String =
+                raised.bytes().map(|digit| RAISED[usize::from(digit - b'0')]).collect();
+            format!("10{sign}{raised}")
+        }
+    }
+}
+
+/// Text inside SVG or HTML.
+#[must_use]
+pub fn escape(text: &str) -> String {
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('"', "&quot;")
+        .replace('\'', "&#39;")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn plot() -> Plot {
+        let point = |name: &str, time_ms, error, style| Point {
+            name: name.to_owned(),
+            time_ms,
+            error,
+            interval: None,
+            style,
+        };
+        Plot {
+            title: "a < b".to_owned(),
+            points: vec![
+                point("fast", 1.0, 0.1, 0),
+                point("good", 10.0, 0.001, 1),
+                point("<beaten>", 20.0, 0.01, 2),
+                point("exact", 30.0, 0.0, 3),
+            ],
+            curve: vec![(100.0, 0.1), (10_000.0, 0.001)],
+            ..Plot::default()
+        }
+    }
+
+    #[test]
+    fn a_decade_is_as_long_anywhere_on_the_axis() {
+        let axis = Axis::new([1.5, 700.0].into_iter(), 0.0, 300.0);
+        let places = axis.map(|a| [1.0, 10.0, 100.0, 1000.0].map(|v| a.place(v)));
+        assert_eq!(places, Some([0.0, 100.0, 200.0, 300.0]));
+        assert!(Axis::new([0.0, -1.0].into_iter(), 0.0, 1.0).is_none());
+    }
+
+    #[test]
+    fn only_methods_that_nothing_beats_are_on_the_front() {
+        assert_eq!(plot().pareto(), [0, 1, 3]);
+        assert_eq!(plot().not_shown(), ["exact"]);
+    }
+
+    #[test]
+    fn names_are_text_and_never_markup() {
+        let svg = plot().svg();
+        assert!(svg.contains("&lt;beaten&gt;") && !svg.contains("<beaten>"));
+        assert!(svg.contains("<title>a &lt; b</title>"));
+        assert_eq!(svg.matches("<svg").count(), svg.matches("</svg>").count());
+    }
+
+    #[test]
+    fn labels_of_equal_points_do_not_lie_on_each_other() {
+        assert_eq!(free_height(&[[0.0, 50.0, 100.0]], [10.0, 60.0], 101.0), 112.5);
+        assert_eq!(free_height(&[[0.0, 50.0, 100.0]], [60.0, 90.0], 101.0), 101.0);
+    }
+
+    #[test]
+    fn decades_are_written_plainly_where_that_is_short() {
+        assert_eq!([-2, 0, 3].map(power), ["0.01", "1", "1000"]);
+        assert_eq!([-5, 12].map(power), ["10⁻⁵", "10¹²"]);
+    }
+}

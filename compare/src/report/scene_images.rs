@@ -1,0 +1,128 @@
+//! The image files of one scene, read and measured pixel by pixel.
+
+use super::ReportError;
+use super::assemble::methods_of;
+use super::colour_map;
+use super::page::MethodPictures;
+use super::picture::Picture;
+use crate::image_pair::read_image;
+use crate::metric::{Exposures, exit_angle, flip};
+use crate::results::{REFERENCE, Run, SceneEntry, Study};
+use scenes::{LayerName, Layers};
+use std::path::Path;
+
+/// Widest picture in the page, pixels: larger ones are shrunk there.
+const SHOWN_WIDTH_PX: usize = 320;
+
+/// The exact image and each method's, in the order of the study.
+pub(super) struct SceneImages {
+    pub(super) ev: f64,
+    pub(super) size_px: [usize; 2],
+    /// Radiance of the exact image.
+    pub(super) reference: Option<Vec<f64>>,
+    /// `None` where the file has no radiance of this size.
+    pub(super) methods: Vec<Option<MethodImage>>,
+}
+
+/// One method's image with its error maps.
+pub(super) struct MethodImage {
+    pub(super) size_px: [usize; 2],
+    pub(super) radiance: Vec<f64>,
+    pub(super) flip: Option<Vec<f64>>,
+    pub(super) angle_deg: Option<Vec<f64>>,
+}
+
+impl SceneImages {
+    /// Reads what exists; a run without an image file has no picture.
+    pub(super) fn read(
+        directory: &Path,
+        study: &Study,
+        entry: &SceneEntry,
+    ) -> Result<Self, ReportError> {
+        let exact = study
+            .runs
+            .iter()
+            .find(|run| run.scene == entry.name && run.method == REFERENCE && has_image(run));
+        let exact = exact.map(|run| layers(directory, run)).transpose()?;
+        let radiance =
+            exact.as_ref().and_then(|layers| layers.get(&LayerName::Radiance)).map(|l| &l.data);
+        let mut images = Self {
+            ev: radiance.map_or(0.0, |radiance| colour_map::exposure(radiance)),
+            size_px: exact.as_ref().map_or([0, 0], |l| l.resolution_px.map(|side| side as usize)),
+            reference: radiance.cloned(),
+            methods: Vec::new(),
+        };
+        let exposures = match entry.flip_exposures {
+            Some((start, stop, count)) => Some(Exposures { start, stop, count: count as usize }),
+            None => radiance.and_then(|radiance| Exposures::of(radiance)),
+        };
+        for run in methods_of(study, &entry.name) {
+            let image = if has_image(run) { Some(layers(directory, run)?) } else { None };
+            let measured = image
+                .zip(exact.as_ref())
+                .and_then(|(image, exact)| MethodImage::new(&image, exact, exposures));
+            images.methods.push(measured);
+        }
+        Ok(images)
+    }
+
+    /// The exact image as it is shown in the page.
+    pub(super) fn reference_picture(&self) -> Option<Picture> {
+        self.full_reference().map(|picture| picture.shrunk_to(SHOWN_WIDTH_PX))
+    }
+
+    /// The exact image in full size.
+    pub(super) fn full_reference(&self) -> Option<Picture> {
+        let radiance = self.reference.as_ref()?;
+        Some(Picture::of_radiance(radiance, self.size_px, self.ev))
+    }
+}
+
+impl MethodImage {
+    fn new(image: &Layers, exact: &Layers, exposures: Option<Exposures>) -> Option<Self> {
+        if image.resolution_px != exact.resolution_px {
+            return None;
+        }
+        let size_px = image.resolution_px.map(|side| side as usize);
+        let layer = |layers: &Layers, name| -> Option<Vec<f64>> {
+            layers.get(&name).filter(|layer| layer.channels == 3).map(|layer| layer.data.clone())
+        };
+        let radiance = layer(image, LayerName::Radiance)?;
+        let reference = layer(exact, LayerName::Radiance);
+        let flip = reference.zip(exposures).and_then(|(reference, exposures)| {
+            flip::hdr_flip_map(&reference, &radiance, size_px, exposures).ok()
+        });
+        let angle_deg = layer(exact, LayerName::Exit)
+            .zip(layer(image, LayerName::Exit))
+            .map(|(r, t)| exit_angle::exit_angle_map_deg(&r, &t));
+        Some(Self { size_px, radiance, flip, angle_deg })
+    }
+
+    /// Its pictures as they are shown in the page.
+    pub(super) fn pictures(&self, ev: f64) -> MethodPictures {
+        let full = self.full_pictures(ev);
+        let small = |picture: Picture| picture.shrunk_to(SHOWN_WIDTH_PX);
+        MethodPictures {
+            image: small(full.image),
+            flip: full.flip.map(small),
+            angle: full.angle.map(small),
+        }
+    }
+
+    /// Its pictures in full size.
+    pub(super) fn full_pictures(&self, ev: f64) -> MethodPictures {
+        MethodPictures {
+            image: Picture::of_radiance(&self.radiance, self.size_px, ev),
+            flip: self.flip.as_ref().map(|map| Picture::of_flip(map, self.size_px)),
+            angle: self.angle_deg.as_ref().map(|map| Picture::of_angles(map, self.size_px)),
+        }
+    }
+}
+
+fn has_image(run: &Run) -> bool {
+    !run.image.as_os_str().is_empty()
+}
+
+fn layers(directory: &Path, run: &Run) -> Result<Layers, ReportError> {
+    Ok(read_image(&directory.join(&run.image))?.layers)
+}

@@ -1,0 +1,114 @@
+//! HDR data for the viewer in the page, within a budget.
+
+use super::page::{ImageData, SceneData, SceneView};
+use super::scene_images::SceneImages;
+use super::{block, colour_map};
+use serde_json::json;
+
+/// What the data may take in the page before pictures are shrunk, bytes.
+const BUDGET_BYTES: f64 = 40e6;
+/// Base64 bytes per half float, as measured on glass under a sky.
+const BYTES_PER_VALUE: f64 = 1.6;
+
+/// Gives each scene its data; returns the viewer's table of contents, safe
+/// inside a script element, and what was done to keep the page small.
+pub(super) fn fill(scenes: &mut [SceneView], images: &[SceneImages]) -> (String, String) {
+    let values: usize = images.iter().map(values_of).sum();
+    let wanted = values as f64 * BYTES_PER_VALUE / BUDGET_BYTES;
+    let factor = wanted.sqrt().ceil().max(1.0) as usize;
+    let mut contents = Vec::new();
+    for (view, images) in scenes.iter_mut().zip(images) {
+        let Some(data) = data(view, images, factor) else { continue };
+        let names: Vec<&str> = data.images.iter().map(|image| image.name.as_str()).collect();
+        contents.push(json!({
+            "index": view.index,
+            "name": view.entry.name,
+            "width": data.size_px[0],
+            "height": data.size_px[1],
+            "ev": view.ev,
+            "images": names,
+        }));
+        view.data = Some(data);
+    }
+    if contents.is_empty() {
+        return (String::new(), String::new());
+    }
+    let text = json!({ "scenes": contents, "ramps": ramps() }).to_string();
+    let safe = text.replace('<', "\\u003c").replace('>', "\\u003e").replace('&', "\\u0026");
+    let note = if factor > 1 {
+        format!(
+            "To keep this file small, it holds every {factor}th pixel's mean; the EXR files hold all."
+        )
+    } else {
+        String::new()
+    };
+    (safe, note)
+}
+
+/// The two colour tables: even ramp, FLIP; 256 colours each, base64.
+fn ramps() -> String {
+    let share = |i: u32| f64::from(i) / 255.0;
+    let even = (0..256).map(|i| colour_map::ramp(share(i)));
+    let flip = (0..256).map(|i| colour_map::flip(share(i)));
+    let bytes: Vec<u8> = even.chain(flip).flatten().collect();
+    block::base64(&bytes)
+}
+
+fn values_of(images: &SceneImages) -> usize {
+    let pixels = images.size_px[0] * images.size_px[1];
+    let methods = images.methods.iter().flatten();
+    let channels =
+        methods.map(|m| 3 + usize::from(m.flip.is_some()) + usize::from(m.angle_deg.is_some()));
+    pixels * (3 + channels.sum::<usize>())
+}
+
+fn data(view: &SceneView, images: &SceneImages, factor: usize) -> Option<SceneData> {
+    let reference = images.reference.as_ref()?;
+    let [width, height] = images.size_px;
+    let size_px = [width.div_ceil(factor), height.div_ceil(factor)];
+    let coded = |values: &[f64], channels: usize| {
+        let small = shrink(values, channels, images.size_px, factor);
+        block::encode(&small, channels, size_px[0])
+    };
+    let mut list = vec![ImageData {
+        name: "exact".to_owned(),
+        radiance: coded(reference, 3),
+        ..ImageData::default()
+    }];
+    for (method, image) in view.methods.iter().zip(&images.methods) {
+        let Some(image) = image else { continue };
+        let angles: Option<Vec<f64>> = image.angle_deg.as_ref().map(|map| {
+            map.iter().map(|&degrees| if degrees.is_nan() { -1.0 } else { degrees }).collect()
+        });
+        list.push(ImageData {
+            name: method.name.clone(),
+            radiance: coded(&image.radiance, 3),
+            flip: image.flip.as_ref().map(|map| coded(map, 1)).unwrap_or_default(),
+            angle: angles.map(|map| coded(&map, 1)).unwrap_or_default(),
+        });
+    }
+    Some(SceneData { size_px, images: list })
+}
+
+/// Means of blocks of `factor` x `factor` pixels.
+fn shrink(values: &[f64], channels: usize, [width, height]: [usize; 2], factor: usize) -> Vec<f64> {
+    if factor == 1 {
+        return values.to_vec();
+    }
+    let small = [width.div_ceil(factor), height.div_ceil(factor)];
+    let mut means = Vec::with_capacity(small[0] * small[1] * channels);
+    for i in 0..small[0] * small[1] {
+        let (x0, y0) = (i % small[0] * factor, i / small[0] * factor);
+        for channel in 0..channels {
+            let (mut sum, mut count) = (0.0, 0.0);
+            for y in y0..(y0 + factor).min(height) {
+                for x in x0..(x0 + factor).min(width) {
+                    sum += values[(y * width + x) * channels + channel];
+                    count += 1.0;
+                }
+            }
+            means.push(sum / count);
+        }
+    }
+    means
+}

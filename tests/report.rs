@@ -1,0 +1,253 @@
+//! A report of a small made-up study: a glass ball whose exact and
+//! approximate images are closed forms.
+#![allow(clippy::unwrap_used, reason = "a test may stop at the first failure")]
+
+use compare::metric::{Candidate, Mask, Reference, Selection, judge};
+use compare::report::{Report, write_report};
+use compare::results::{
+    NotDone, RESULT_SCHEMA, ResultRow, RowKind, Run, STUDY_SCHEMA, SceneEntry, Study, write_rows,
+    write_study,
+};
+use exr::prelude as exr;
+use glam::DVec3;
+use scenes::rendering::{Pass, Time, TimeSource};
+use scenes::{LayerName, Layers, Plan};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+const SIZE: usize = 192;
+
+/// A blue sky over a chequered ground, with a sun.
+fn sky(d: DVec3) -> DVec3 {
+    if d.dot(DVec3::new(0.4, 0.7, -0.6).normalize()) > 0.995 {
+        return DVec3::new(60.0, 50.0, 40.0);
+    }
+    if d.y >= 0.0 {
+        return DVec3::new(0.35, 0.55, 0.9).lerp(DVec3::ONE, (1.0 - d.y).powi(3));
+    }
+    let at = d / -d.y;
+    let odd = ((2.0 * at.x).floor() + (2.0 * at.z).floor()).rem_euclid(2.0) > 0.5;
+    let tile = if odd { 0.08 } else { 0.6 };
+    DVec3::new(tile, 0.9 * tile, 0.7 * tile).lerp(DVec3::splat(0.5), (1.0 + d.y).powi(8))
+}
+
+fn refract(d: DVec3, n: DVec3, eta_i_over_t: f64) -> DVec3 {
+    let cos_i = -d.dot(n);
+    let cos_t = (1.0 - eta_i_over_t * eta_i_over_t * (1.0 - cos_i * cos_i)).max(0.0).sqrt();
+    (eta_i_over_t * d + (eta_i_over_t * cos_i - cos_t) * n).normalize()
+}
+
+/// The ball after `interfaces` refractions (0 to 2), orthographic.
+fn ball(interfaces: u32) -> Layers {
+    let (mut radiance, mut exit, mut coverage) = (Vec::new(), Vec::new(), Vec::new());
+    for pixel in 0..SIZE * SIZE {
+        let centre = |i: usize| 2.4 * ((i as f64 + 0.5) / SIZE as f64 - 0.5);
+        let (x, y) = (centre(pixel % SIZE), -centre(pixel / SIZE));
+        let straight = DVec3::new(0.0, -0.2, -1.0).normalize();
+        let inside = x * x + y * y < 1.0;
+        let mut d = straight;
+        if inside {
+            let n = DVec3::new(x, y, (1.0 - x * x - y * y).sqrt());
+            if interfaces > 0 {
+                d = refract(DVec3::NEG_Z, n, 1.0 / 1.5);
+                let leaves = n - 2.0 * d.dot(n) * d;
+                if interfaces > 1 {
+                    d = refract(d, -leaves, 1.5);
+                }
+            }
+        }
+        radiance.extend(sky(d).to_array());
+        exit.extend(if inside { d.to_array() } else { [0.0; 3] });
+        coverage.push(f64::from(u8::from(inside)));
+    }
+    let mut layers = Layers::new([SIZE as u32; 2]);
+    layers.push(LayerName::Radiance, 3, radiance);
+    layers.push(LayerName::Exit, 3, exit);
+    layers.push(LayerName::Coverage, 1, coverage);
+    layers
+}
+
+fn write_exr(path: &Path, layers: &Layers) {
+    let mut channels = exr::SmallVec::new();
+    for (layer, names) in [
+        (LayerName::Radiance, &["R", "G", "B"][..]),
+        (LayerName::Exit, &["exit.X", "exit.Y", "exit.Z"]),
+        (LayerName::Coverage, &["coverage.Y"]),
+    ] {
+        let data = &layers.get(&layer).unwrap().data;
+        for (place, name) in names.iter().enumerate() {
+            let samples: Vec<f32> =
+                data.iter().skip(place).step_by(names.len()).map(|&v| v as f32).collect();
+            channels.push(exr::AnyChannel::new(*name, exr::FlatSamples::F32(samples)));
+        }
+    }
+    let size = (SIZE, SIZE);
+    let image = exr::Image::from_channels(size, exr::AnyChannels::sort(channels));
+    std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+    exr::WritableImage::write(&image).to_file(path).unwrap();
+}
+
+fn run(scene: &str, method: &str, image: &str) -> Run {
+    let mut plan = Plan::default();
+    plan.buffers.push(scenes::plan::Buffer { name: "front".to_owned(), bytes: 1 << 20 });
+    plan.leave_out(scenes::plan::Kind::Pass, "back normals", "one interface needs none", 1 << 19);
+    Run {
+        id: format!("{scene}-{method}"),
+        scene: scene.to_owned(),
+        method: method.to_owned(),
+        image: PathBuf::from(image),
+        passes: vec![Pass {
+            name: "shade".to_owned(),
+            times: vec![Time { source: TimeSource::Wall, milliseconds: 1.25 }],
+        }],
+        plan,
+        ..Run::default()
+    }
+}
+
+fn common(run: &Run) -> ResultRow {
+    ResultRow {
+        schema: RESULT_SCHEMA.to_owned(),
+        id: run.id.clone(),
+        scene: run.scene.clone(),
+        method: run.method.clone(),
+        parameters: run.parameters.clone(),
+        width_px: SIZE as u32,
+        height_px: SIZE as u32,
+        adapter: "llvmpipe <256 bits>".to_owned(),
+        software: true,
+        ..ResultRow::default()
+    }
+}
+
+fn time(run: &Run, milliseconds: f64) -> ResultRow {
+    ResultRow {
+        kind: RowKind::Time,
+        metric: "time_wall_ms".to_owned(),
+        unit: "ms".to_owned(),
+        value: Some(milliseconds),
+        n: 20,
+        ..common(run)
+    }
+}
+
+/// Writes a study of two scenes, one of them with a name that tries to be markup.
+fn study(directory: &Path) {
+    std::fs::create_dir_all(directory).unwrap();
+    let scenes = ["ball", "a | <script>alert(1)</script>"];
+    let mut rows = Vec::new();
+    let mut runs = Vec::new();
+    for (place, scene) in scenes.into_iter().enumerate() {
+        let exact = ball(2);
+        let reference = run(scene, "reference", &format!("images/{place}/reference.exr"));
+        write_exr(&directory.join(&reference.image), &exact);
+        for samples in [1u32, 4, 16, 64] {
+            let mut own = run(scene, "reference", "");
+            own.id = format!("{scene}-curve-{samples}");
+            own.parameters = BTreeMap::from([("samples".to_owned(), samples.to_string())]);
+            rows.push(time(&own, 40.0 * f64::from(samples)));
+            rows.push(ResultRow {
+                metric: "relmse_e1e-2".to_owned(),
+                value: Some(0.2 / f64::from(samples)),
+                ..common(&own)
+            });
+        }
+        runs.push(reference);
+        for (interfaces, method, cost) in [(0, "undeviated", 0.8), (1, "one-interface", 1.4)] {
+            let candidate = ball(interfaces);
+            let own = run(scene, method, &format!("images/{place}/{method}.exr"));
+            write_exr(&directory.join(&own.image), &candidate);
+            let mut selection = Selection::all(compare::metric::Encoding::Linear);
+            selection.masks.push(Mask::Object);
+            let judgement = judge(Reference(&exact), Candidate(&candidate), &selection).unwrap();
+            rows.push(time(&own, cost));
+            rows.extend(judgement.measurements.iter().map(|m| m.row(&common(&own))));
+            runs.push(own);
+        }
+    }
+    write_rows(directory, &rows).unwrap();
+    let entry = |name: &str| SceneEntry {
+        name: name.to_owned(),
+        title: "A ball of glass under a clear sky".to_owned(),
+        toml: "title = \"</pre><b>\"".to_owned(),
+        resolution_px: [SIZE as u32; 2],
+        flip_exposures: Some((-4.0, 2.0, 4)),
+    };
+    let study = Study {
+        schema: STUDY_SCHEMA.to_owned(),
+        version: "0.1.0".to_owned(),
+        command: "snell study ball -o out".to_owned(),
+        adapter: "llvmpipe <256 bits>".to_owned(),
+        finished_utc: "2026-11-23T00:00:00Z".to_owned(),
+        time_metric: "time_wall_ms".to_owned(),
+        software: true,
+        elapsed_s: 12.5,
+        scenes: scenes.into_iter().map(entry).collect(),
+        left_out: vec![NotDone {
+            what: "bunny".to_owned(),
+            reason: "bunny.obj is not in target/assets".to_owned(),
+        }],
+        runs,
+        ..Study::default()
+    };
+    write_study(directory, &study).unwrap();
+}
+
+fn report(name: &str) -> (Report, String) {
+    let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    study(&directory);
+    let report = write_report(&directory).unwrap();
+    let html = std::fs::read_to_string(&report.html).unwrap();
+    (report, html)
+}
+
+#[test]
+fn a_page_holds_tables_plots_and_pictures_and_needs_no_network() {
+    let (report, html) = report("whole-report");
+    assert_eq!(html.matches("<svg").count(), 4, "two plots per scene");
+    assert!(html.matches("src=\"data:image/png;base64,").count() >= 12);
+    for address in ["http://", "https://", "src=\"/", "@import"] {
+        let foreign = html.replace("http://www.w3.org/2000/svg", "");
+        assert!(!foreign.contains(address), "the page refers to {address}");
+    }
+    assert!(html.contains("one-interface sends light in the best direction in 2 of 2 scenes"));
+    assert!(html.contains("bunny.obj is not in target/assets"));
+    assert!(html.contains("back normals") && html.contains("512 KiB"));
+    for path in &report.pictures {
+        assert!(std::fs::metadata(path).unwrap().len() > 100, "{}", path.display());
+    }
+}
+
+#[test]
+fn text_of_scenes_and_adapters_is_never_markup() {
+    let (report, html) = report("hostile-report");
+    assert!(!html.contains("<script>alert"), "a scene's name became a script");
+    assert!(!html.contains("</pre><b>"), "a scene file became markup");
+    assert!(html.contains("&#60;script&#62;alert(1)") || html.contains("&lt;script&gt;alert(1)"));
+    let markdown = std::fs::read_to_string(report.markdown).unwrap();
+    assert!(markdown.contains("| a \\| &lt;script&gt;"), "{markdown}");
+    let columns = |line: &str| line.replace("\\|", "").matches('|').count();
+    let mut table = markdown.lines().filter(|line| line.starts_with('|')).map(columns);
+    let first = table.next().unwrap();
+    assert!(table.all(|count| count == first), "{markdown}");
+}
+
+#[test]
+fn the_spreadsheet_has_a_line_per_row() {
+    let (report, _) = report("spreadsheet-report");
+    let rows = compare::results::read_rows(report.csv.parent().unwrap()).unwrap();
+    let text = std::fs::read_to_string(report.csv).unwrap();
+    assert_eq!(text.lines().count(), rows.len() + 1);
+    assert!(text.starts_with("schema,kind,id,scene,method,parameters"));
+}
+
+/// A results directory without its study says which file is missing.
+#[test]
+fn an_incomplete_directory_is_refused_by_name() {
+    let directory = tempfile::tempdir().unwrap();
+    let error = write_report(directory.path()).unwrap_err().to_string();
+    assert!(error.contains("results.jsonl"), "{error}");
+    write_rows(directory.path(), &[]).unwrap();
+    let error = write_report(directory.path()).unwrap_err().to_string();
+    assert!(error.contains("study.json"), "{error}");
+}
