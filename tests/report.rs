@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may stop at the first failure")]
 
 use compare::metric::{Candidate, Mask, Reference, Selection, judge};
-use compare::report::{Report, write_report};
+use compare::report::{self, Report};
 use compare::results::{
     NotDone, RESULT_SCHEMA, ResultRow, RowKind, Run, STUDY_SCHEMA, SceneEntry, Study, write_rows,
     write_study,
@@ -193,17 +193,17 @@ fn study(directory: &Path) {
     write_study(directory, &study).unwrap();
 }
 
-fn report(name: &str) -> (Report, String) {
+fn page(name: &str) -> (Report, String) {
     let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     study(&directory);
-    let report = write_report(&directory).unwrap();
+    let report = report::write(&directory).unwrap();
     let html = std::fs::read_to_string(&report.html).unwrap();
     (report, html)
 }
 
 #[test]
 fn a_page_holds_tables_plots_and_pictures_and_needs_no_network() {
-    let (report, html) = report("whole-report");
+    let (report, html) = page("whole-report");
     assert_eq!(html.matches("<svg").count(), 4, "two plots per scene");
     assert!(html.matches("src=\"data:image/png;base64,").count() >= 12);
     for address in ["http://", "https://", "src=\"/", "@import"] {
@@ -220,7 +220,7 @@ fn a_page_holds_tables_plots_and_pictures_and_needs_no_network() {
 
 #[test]
 fn text_of_scenes_and_adapters_is_never_markup() {
-    let (report, html) = report("hostile-report");
+    let (report, html) = page("hostile-report");
     assert!(!html.contains("<script>alert"), "a scene's name became a script");
     assert!(!html.contains("</pre><b>"), "a scene file became markup");
     assert!(html.contains("&#60;script&#62;alert(1)") || html.contains("&lt;script&gt;alert(1)"));
@@ -234,7 +234,7 @@ fn text_of_scenes_and_adapters_is_never_markup() {
 
 #[test]
 fn the_spreadsheet_has_a_line_per_row() {
-    let (report, _) = report("spreadsheet-report");
+    let (report, _) = page("spreadsheet-report");
     let rows = compare::results::read_rows(report.csv.parent().unwrap()).unwrap();
     let text = std::fs::read_to_string(report.csv).unwrap();
     assert_eq!(text.lines().count(), rows.len() + 1);
@@ -245,9 +245,9 @@ fn the_spreadsheet_has_a_line_per_row() {
 #[test]
 fn an_incomplete_directory_is_refused_by_name() {
     let directory = tempfile::tempdir().unwrap();
-    let error = write_report(directory.path()).unwrap_err().to_string();
+    let error = report::write(directory.path()).unwrap_err().to_string();
     assert!(error.contains("results.jsonl"), "{error}");
     write_rows(directory.path(), &[]).unwrap();
-    let error = write_report(directory.path()).unwrap_err().to_string();
+    let error = report::write(directory.path()).unwrap_err().to_string();
     assert!(error.contains("study.json"), "{error}");
 }

@@ -12,7 +12,7 @@
   const MODES = ['radiance', 'difference', 'relative', 'flip', 'angle'];
   // scene: place in contents; image, left: 0 is the exact one; split: 0..1, where
   // images left of it come from `left`; x, y: centre in pixels; zoom: 1 = whole.
-  const state = { scene: 0, image: 1, left: 0, split: 0, mode: 0, ev: 0, x: 0, y: 0, zoom: 1 };
+  const state = { scene: 0, image: 1, left: 0, split: 0.5, mode: 0, ev: 0, x: 0, y: 0, zoom: 1 };
 
   const VERTEX = `#version 300 es
     void main() {
@@ -57,7 +57,7 @@
         vec3 e = (t - r) * (t - r) / (r * r + 0.01);
         c = scale(sqrt((e.r + e.g + e.b) / 3.0), 0);
       }
-      else if (!has) c = vec3(0.0);
+      else if (!has) c = film(t);
       else if (mode == 3) c = scale(m, 1);
       else c = m < 0.0 ? vec3(0.5) : scale(log(max(m, 1e-6) / 0.1) / log(900.0), 0);
       colour = vec4(c, 1.0);
@@ -148,7 +148,7 @@
     const angle = await get(scene, state.image, 'angle');
     if (turn !== drawing) return;
     ready = { scene, exact, right, flip, angle };
-    const width = Math.min(canvas.clientWidth, 900);
+    const width = canvas.clientWidth;
     const ratio = window.devicePixelRatio || 1;
     canvas.width = Math.round(width * ratio);
     canvas.height = Math.round(width * ratio * Math.min(1, scene.height / scene.width));
@@ -214,7 +214,7 @@
   }
   function choose(place, more) {
     const scene = contents.scenes[place];
-    update({ scene: place, ev: scene.ev, x: scene.width / 2, y: scene.height / 2, zoom: 1, ...more }, !more);
+    update({ scene: place, image: scene.best, left: 0, ev: scene.ev, x: scene.width / 2, y: scene.height / 2, zoom: 1, ...more }, !more);
   }
   // #v=scene.image[.mode] with optional &name=value; anything else is a plain anchor.
   function restore() {

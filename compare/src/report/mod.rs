@@ -60,7 +60,7 @@ pub struct Report {
 ///
 /// # Errors
 /// When the results or an image cannot be read or a file cannot be written.
-pub fn write_report(directory: &Path) -> Result<Report, ReportError> {
+pub fn write(directory: &Path) -> Result<Report, ReportError> {
     let rows = read_rows(directory)?;
     let study = read_study(directory)?;
     let (page, images) = assemble::assemble(directory, study, &rows)?;
@@ -70,24 +70,24 @@ pub fn write_report(directory: &Path) -> Result<Report, ReportError> {
         csv: directory.join("results.csv"),
         pictures: Vec::new(),
     };
-    write(&report.csv, &csv(&rows))?;
-    write(&report.markdown, page::Markdown { page: &page }.render()?.as_bytes())?;
+    write_file(&report.csv, &csv(&rows))?;
+    write_file(&report.markdown, page::Markdown { page: &page }.render()?.as_bytes())?;
     for (scene, images) in page.scenes.iter().zip(&images) {
         let name = file_name(&scene.entry.name);
         for (number, (_, svg)) in scene.plots.iter().enumerate() {
             let kind = ["image", "exit-angle"].get(number).copied().unwrap_or("plot");
             let path = directory.join("plots").join(format!("{name}-{kind}.svg"));
             report.pictures.push(path.clone());
-            write(&path, svg.as_bytes())?;
+            write_file(&path, svg.as_bytes())?;
         }
         let names: Vec<&str> = scene.methods.iter().map(|m| m.name.as_str()).collect();
         for (path, picture) in pictures(images, &name, &names) {
             let path = directory.join("pictures").join(path);
             report.pictures.push(path.clone());
-            write(&path, &picture.png())?;
+            write_file(&path, &picture.png())?;
         }
     }
-    write(&report.html, page.render()?.as_bytes())?;
+    write_file(&report.html, page.render()?.as_bytes())?;
     Ok(report)
 }
 
@@ -190,7 +190,7 @@ fn csv(rows: &[ResultRow]) -> Vec<u8> {
     writer.into_inner().unwrap_or_default()
 }
 
-fn write(path: &Path, bytes: &[u8]) -> Result<(), ReportError> {
+fn write_file(path: &Path, bytes: &[u8]) -> Result<(), ReportError> {
     let io = |source| ReportError::Write { path: path.to_owned(), source };
     if let Some(folder) = path.parent() {
         std::fs::create_dir_all(folder).map_err(io)?;

@@ -27,6 +27,8 @@ pub(super) fn fill(scenes: &mut [SceneView], images: &[SceneImages]) -> (String,
             "height": data.size_px[1],
             "ev": view.ev,
             "images": names,
+            // The image beside the exact one at first: the best by exit angle.
+            "best": best(view, &names),
         }));
         view.data = Some(data);
     }
@@ -43,6 +45,13 @@ pub(super) fn fill(scenes: &mut [SceneView], images: &[SceneImages]) -> (String,
         String::new()
     };
     (safe, note)
+}
+
+/// Place of the best method among the images; the last one if none is best.
+fn best(view: &SceneView, names: &[&str]) -> usize {
+    let best = view.methods.iter().find(|m| m.cells.first().is_some_and(|cell| cell.best));
+    let place = best.and_then(|method| names.iter().position(|name| *name == method.name));
+    place.unwrap_or(names.len() - 1)
 }
 
 /// The two colour tables: even ramp, FLIP; 256 colours each, base64.
