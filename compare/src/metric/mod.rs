@@ -9,6 +9,7 @@ pub mod error;
 pub mod exit_angle;
 pub mod flip;
 mod judge;
+mod pair;
 pub mod pu21;
 pub mod relative;
 pub mod ssim;

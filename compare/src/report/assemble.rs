@@ -3,9 +3,8 @@
 use super::number::{bytes, digits, duration};
 use super::numbers::{Numbers, is_better, usable};
 use super::page::{Cell, MethodView, Page, SceneView};
-use super::plot::{Plot, Point};
 use super::scene_images::SceneImages;
-use super::{ReportError, verdict, viewer};
+use super::{ReportError, scene_plots, verdict, viewer};
 use crate::metric::{Better, Mask, Metric};
 use crate::results::{REFERENCE, ResultRow, RowKind, Run, SceneEntry, Status, Study};
 use std::path::Path;
@@ -108,7 +107,7 @@ fn scene_view(
         ev: images.ev,
         reference: images.reference_picture(),
         reference_facts: reference_run.map(facts).unwrap_or_default(),
-        plots: plots(entry, study, &runs, numbers, styles),
+        plots: scene_plots::plots(entry, study, &runs, numbers, styles),
         methods,
         data: None,
     }
@@ -165,7 +164,7 @@ fn method_view(
     }
 }
 
-fn find<'a>(numbers: &Numbers<'a>, run: &Run, metric: Metric) -> Option<&'a ResultRow> {
+pub(super) fn find<'a>(numbers: &Numbers<'a>, run: &Run, metric: Metric) -> Option<&'a ResultRow> {
     numbers.find(run, metric.describe().name)
 }
 
@@ -239,59 +238,6 @@ fn mark_best(views: &mut [MethodView], runs: &[&Run], numbers: &Numbers, study: 
     for (i, view) in views.iter_mut().enumerate() {
         view.time.best = fastest.is_some() && time(i) == fastest;
     }
-}
-
-/// Error against time: the image and the exit angle.
-fn plots(
-    entry: &SceneEntry,
-    study: &Study,
-    runs: &[&Run],
-    numbers: &Numbers,
-    styles: &[String],
-) -> Vec<(String, String)> {
-    let mut plots = Vec::new();
-    for (metric, label) in [
-        (Metric::RelMse, "relMSE ε=0.01 (image)"),
-        (Metric::ExitAngleMedian, "median exit-angle error, degrees"),
-    ] {
-        let points = runs.iter().filter_map(|run| {
-            let row = find(numbers, run, metric)?;
-            let name = display_name(study, run);
-            Some(Point {
-                time_ms: numbers.time(run, &study.time_metric).and_then(usable)?,
-                error: usable(row)?,
-                interval: row.ci_lo.zip(row.ci_hi),
-                style: styles.iter().position(|known| *known == name).unwrap_or(0),
-                name,
-            })
-        });
-        let plot = Plot {
-            title: format!("{}: {label} against time", entry.name),
-            error_label: label.to_owned(),
-            time_label: "milliseconds per frame".to_owned(),
-            points: points.collect(),
-            curve: numbers.reference_curve(&entry.name, metric.describe().name),
-        };
-        let svg = plot.svg();
-        if !svg.is_empty() {
-            plots.push((caption(&plot), svg));
-        }
-    }
-    plots
-}
-
-fn caption(plot: &Plot) -> String {
-    let mut caption = String::from("Lower left is better. Dotted: methods that no other beats.");
-    if !plot.curve.is_empty() {
-        caption.push_str(
-            " Line: the exact CPU renderer's wall time, with samples disjoint from the truth's.",
-        );
-    }
-    let missing = plot.not_shown();
-    if !missing.is_empty() {
-        caption.push_str(&format!(" Not on a logarithmic axis (zero): {}.", missing.join(", ")));
-    }
-    caption
 }
 
 fn descriptions() -> Vec<[String; 6]> {

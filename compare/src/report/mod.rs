@@ -10,6 +10,7 @@ mod page;
 pub mod picture;
 pub mod plot;
 mod scene_images;
+mod scene_plots;
 mod verdict;
 mod viewer;
 

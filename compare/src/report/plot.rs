@@ -4,7 +4,17 @@
 //! Colours are CSS variables with a fallback, so that the same text works in
 //! the page (light and dark) and as a file of its own (black on white).
 
+mod axis;
+mod marks;
+
+pub use marks::escape;
+
 use super::number::digits;
+use axis::Axis;
+use marks::{
+    BOTTOM, COLOURS, FAINT, HEIGHT, INK, LEFT, RIGHT, TOP, WIDTH, free_height, line, marker, power,
+    text,
+};
 use std::fmt::Write;
 
 /// One method in a plot.
@@ -35,53 +45,6 @@ pub struct Plot {
     pub points: Vec<Point>,
     /// The exact renderer's own curve: milliseconds and error, ascending.
     pub curve: Vec<(f64, f64)>,
-}
-
-const WIDTH: f64 = 560.0;
-const HEIGHT: f64 = 380.0;
-const LEFT: f64 = 64.0;
-const RIGHT: f64 = 16.0;
-const TOP: f64 = 14.0;
-const BOTTOM: f64 = 48.0;
-const INK: &str = "var(--ink, #1b1f24)";
-const FAINT: &str = "var(--grid, #d8dce2)";
-/// Okabe & Ito's colours that differ for every kind of colour vision, without
-/// the yellow that is lost on white.
-const COLOURS: [&str; 7] =
-    ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7f6a4f"];
-
-/// One logarithmic axis: whole decades around the data, and where they lie.
-struct Axis {
-    low: i32,
-    high: i32,
-    from: f64,
-    to: f64,
-}
-
-impl Axis {
-    fn new(values: impl Iterator<Item = f64>, from: f64, to: f64) -> Option<Self> {
-        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-        for value in values.filter(|value| *value > 0.0 && value.is_finite()) {
-            (low, high) = (low.min(value.log10()), high.max(value.log10()));
-        }
-        if low > high {
-            return None;
-        }
-        let low_decade = (low - 0.05).floor() as i32;
-        let high_decade = ((high + 0.05).ceil() as i32).max(low_decade + 1);
-        Some(Self { low: low_decade, high: high_decade, from, to })
-    }
-
-    fn place(&self, value: f64) -> f64 {
-        let share = (value.log10() - f64::from(self.low)) / f64::from(self.high - self.low);
-        self.from + share.clamp(0.0, 1.0) * (self.to - self.from)
-    }
-
-    /// Whole decades, thinned to at most eight.
-    fn decades(&self) -> impl Iterator<Item = i32> {
-        let step = ((self.high - self.low) as usize).div_ceil(8);
-        (self.low..=self.high).step_by(step)
-    }
 }
 
 impl Plot {
@@ -254,82 +217,6 @@ impl Plot {
     }
 }
 
-/// Moves a label down until no other label lies there.
-fn free_height(labels: &[[f64; 3]], [from, to]: [f64; 2], wanted: f64) -> f64 {
-    let mut height = wanted;
-    for _ in 0..labels.len() {
-        let hit = labels
-            .iter()
-            .find(|label| label[0] < to && from < label[1] && (label[2] - height).abs() < 12.0);
-        match hit {
-            Some(label) => height = label[2] + 12.5,
-            None => break,
-        }
-    }
-    height.min(HEIGHT - BOTTOM - 3.0)
-}
-
-/// Seven shapes, so that a print in black and white can be read.
-fn marker(style: usize, x: f64, y: f64) -> String {
-    let polygon = |corners: &[(f64, f64)]| {
-        let points: Vec<String> =
-            corners.iter().map(|(dx, dy)| format!("{:.1},{:.1}", x + dx, y + dy)).collect();
-        format!("<polygon points=\"{}\"/>", points.join(" "))
-    };
-    match style % 7 {
-        0 => format!("<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"5\"/>"),
-        1 => polygon(&[(-4.5, -4.5), (4.5, -4.5), (4.5, 4.5), (-4.5, 4.5)]),
-        2 => polygon(&[(0.0, -6.0), (5.5, 4.5), (-5.5, 4.5)]),
-        3 => polygon(&[(0.0, -6.5), (6.5, 0.0), (0.0, 6.5), (-6.5, 0.0)]),
-        4 => polygon(&[(0.0, 6.0), (5.5, -4.5), (-5.5, -4.5)]),
-        5 => polygon(&[(-6.0, -2.0), (6.0, -2.0), (6.0, 2.0), (-6.0, 2.0)]),
-        _ => polygon(&[(-2.0, -6.0), (2.0, -6.0), (2.0, 6.0), (-2.0, 6.0)]),
-    }
-}
-
-fn line(svg: &mut String, [x1, y1, x2, y2]: [f64; 4], colour: &str, more: &str) {
-    let _ = write!(
-        svg,
-        "<line x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\" \
-         stroke=\"{colour}\"{more}/>"
-    );
-}
-
-fn text(svg: &mut String, [x, y]: [f64; 2], anchor: &str, content: &str) {
-    let _ = write!(
-        svg,
-        "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\" fill=\"{INK}\">{}</text>",
-        escape(content)
-    );
-}
-
-/// A power of ten: plain from 0.01 to 1000, else with a raised exponent.
-fn power(decade: i32) -> String {
-    const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
-    match decade {
-        -2 => "0.01".to_owned(),
-        -1 => "0.1".to_owned(),
-        0..=3 => 10i32.pow(decade as u32).to_string(),
-        _ => {
-            let sign = if decade < 0 { "⁻" } else { "" };
-            let raised = decade.unsigned_abs().to_string();
-            let raised: String =
-                raised.bytes().map(|digit| RAISED[usize::from(digit - b'0')]).collect();
-            format!("10{sign}{raised}")
-        }
-    }
-}
-
-/// Text inside SVG or HTML.
-#[must_use]
-pub fn escape(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
-        .replace('"', "&quot;")
-        .replace('\'', "&#39;")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -356,14 +243,6 @@ mod tests {
     }
 
     #[test]
-    fn a_decade_is_as_long_anywhere_on_the_axis() {
-        let axis = Axis::new([1.5, 700.0].into_iter(), 0.0, 300.0);
-        let places = axis.map(|a| [1.0, 10.0, 100.0, 1000.0].map(|v| a.place(v)));
-        assert_eq!(places, Some([0.0, 100.0, 200.0, 300.0]));
-        assert!(Axis::new([0.0, -1.0].into_iter(), 0.0, 1.0).is_none());
-    }
-
-    #[test]
     fn only_methods_that_nothing_beats_are_on_the_front() {
         assert_eq!(plot().pareto(), [0, 1, 3]);
         assert_eq!(plot().not_shown(), ["exact"]);
@@ -375,17 +254,5 @@ mod tests {
         assert!(svg.contains("&lt;beaten&gt;") && !svg.contains("<beaten>"));
         assert!(svg.contains("<title>a &lt; b</title>"));
         assert_eq!(svg.matches("<svg").count(), svg.matches("</svg>").count());
-    }
-
-    #[test]
-    fn labels_of_equal_points_do_not_lie_on_each_other() {
-        assert_eq!(free_height(&[[0.0, 50.0, 100.0]], [10.0, 60.0], 101.0), 112.5);
-        assert_eq!(free_height(&[[0.0, 50.0, 100.0]], [60.0, 90.0], 101.0), 101.0);
-    }
-
-    #[test]
-    fn decades_are_written_plainly_where_that_is_short() {
-        assert_eq!([-2, 0, 3].map(power), ["0.01", "1", "1000"]);
-        assert_eq!([-5, 12].map(power), ["10⁻⁵", "10¹²"]);
     }
 }
