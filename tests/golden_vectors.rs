@@ -330,6 +330,34 @@ fn a_noisy_reference_is_corrected_as_numpy_does_and_covers_the_truth() {
     close("dual", dual, &expected["mse_dual_buffer"], 1e-9);
 }
 
+/// A mean with its variance says the same as the batches it is made of.
+#[test]
+fn a_variance_layer_corrects_as_the_batches_do() {
+    let expected = &expected()["mc_stack"];
+    let method = read("mc_stack/method.exr");
+    let images: Vec<Image> = (0..16).map(|k| read(&format!("mc_stack/ref_{k:02}.exr"))).collect();
+    let batches: Vec<&[f64]> = images.iter().map(colours).collect();
+    let mean = stack::mean_image(&batches);
+    let variance: Vec<f64> = (0..mean.len())
+        .map(|i| batches.iter().map(|b| (b[i] - mean[i]).powi(2)).sum::<f64>() / 15.0 / 16.0)
+        .collect();
+    let mut layers = Layers::new(method.layers.resolution_px);
+    layers.push(LayerName::Radiance, 3, mean);
+    layers.push(LayerName::Variance, 3, variance);
+    let selection = Selection::all(method.encoding);
+    let judgement = judge(Reference(&layers), Candidate(&method.layers), &selection).unwrap();
+    let found = judgement.measurements.iter().find(|m| m.metric == "mse_corrected").unwrap();
+    close("corrected", found.value.unwrap(), &expected["mse_corrected"], 1e-9);
+    let (low, high) = found.interval.unwrap();
+    let exact = expected["mse_true"].as_f64().unwrap();
+    assert!(low < exact && exact < high, "{low} to {high} misses {exact}");
+    // Not so wide that it would hold anything: the raw value is outside.
+    assert!(expected["mse_raw"].as_f64().unwrap() > high);
+    let jackknife = expected["jackknife_se_of_mse_corrected"].as_f64().unwrap();
+    let ours = (high - low) / 2.0 / 1.96;
+    assert!((0.5..2.5).contains(&(ours / jackknife)), "{ours} against {jackknife}");
+}
+
 /// A layer that one side lacks leaves its metrics out, with the reason.
 #[test]
 fn without_exit_layers_there_is_no_angle_and_with_them_there_is() {

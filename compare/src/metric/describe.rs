@@ -19,6 +19,7 @@ pub enum Metric {
     Mae,
     Mse,
     Rmse,
+    MseCorrected,
     MaxAbs,
     Mape,
     Smape,
@@ -81,7 +82,7 @@ const TONE_MAPPED_SSIM: &str =
 
 impl Metric {
     /// Every metric, figures of merit first.
-    pub const ALL: [Self; 21] = [
+    pub const ALL: [Self; 22] = [
         Self::ExitAngleMedian,
         Self::ExitAngleP95,
         Self::ExitAngleMean,
@@ -95,6 +96,7 @@ impl Metric {
         Self::Mae,
         Self::Mse,
         Self::Rmse,
+        Self::MseCorrected,
         Self::MaxAbs,
         Self::Mape,
         Self::Smape,
@@ -144,6 +146,10 @@ impl Metric {
             Self::Mae => new("mae", "radiance", up, Lower, "mean |d|", PLAIN),
             Self::Mse => new("mse", "radiance²", up, Lower, "mean d²", PLAIN),
             Self::Rmse => new("rmse", "radiance", up, Lower, "√(mean d²)", PLAIN),
+            Self::MseCorrected => {
+                let formula = "mean (d² - variance of r): the reference's noise subtracted";
+                new("mse_corrected", "radiance²", "any", Lower, formula, PLAIN)
+            }
             Self::MaxAbs => new("max_abs", "radiance", up, Lower, "max |d|", PLAIN),
             Self::Mape => new("mape_e1e-2", "", up, Lower, "mean |d| / (|r| + 0.01)", PLAIN),
             Self::Smape => {
@@ -198,9 +204,11 @@ impl Metric {
     pub fn takes(self, encoding: Encoding) -> bool {
         match self {
             Self::LdrFlip | Self::Psnr | Self::Ssim => encoding == Encoding::Display,
-            Self::HdrFlip | Self::Pu21Psnr | Self::PsnrToneMapped | Self::SsimToneMapped => {
-                encoding == Encoding::Linear
-            }
+            Self::HdrFlip
+            | Self::Pu21Psnr
+            | Self::PsnrToneMapped
+            | Self::SsimToneMapped
+            | Self::MseCorrected => encoding == Encoding::Linear,
             _ => true,
         }
     }

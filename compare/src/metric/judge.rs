@@ -112,6 +112,9 @@ fn sides<'a>(pair: &Pair<'a>, metric: Metric) -> Result<Sides<'a>, &'static str>
     if !metric.takes(pair.selection.encoding) {
         return Err("it is not defined for this encoding");
     }
+    if metric == Metric::MseCorrected && pair.variance.is_none() {
+        return Err("the reference carries no variance: there is no noise to subtract");
+    }
     if metric.is_of_exits() {
         pair.exit.ok_or("no exit layer on both sides")
     } else {
@@ -123,6 +126,10 @@ fn sides<'a>(pair: &Pair<'a>, metric: Metric) -> Result<Sides<'a>, &'static str>
 fn fill(found: &mut Measurement, answer: Answer) {
     match answer {
         Answer::Value(value, n) if value.is_finite() => (found.value, found.n) = (Some(value), n),
+        Answer::Corrected(error, n) => {
+            (found.value, found.n, found.interval) =
+                (Some(error.corrected), n, Some(error.interval));
+        }
         Answer::Value(value, _) => {
             found.status = Status::Undefined;
             found.reason = format!("it overflows to {value}");

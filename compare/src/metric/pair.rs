@@ -4,7 +4,7 @@ use super::exit_angle::{ExitAngles, exit_angle_map_deg, summarise, unmatched_sha
 use super::judge::JudgementError;
 use super::sum::mean;
 use super::{Candidate, Encoding, Exposures, Mask, Metric, Reference, Selection};
-use super::{display, error, flip, pu21, relative, ssim};
+use super::{display, error, flip, pu21, relative, ssim, stack};
 use scenes::{Layer, LayerName, Layers};
 use std::cell::OnceCell;
 
@@ -21,6 +21,8 @@ pub(super) struct Pair<'a> {
     pub(super) size_px: [usize; 2],
     pub(super) radiance: Option<Sides<'a>>,
     pub(super) exit: Option<Sides<'a>>,
+    /// Variance of the reference's radiance, three channels.
+    pub(super) variance: Option<&'a [f64]>,
     coverage: Option<&'a [f64]>,
     flip: OnceCell<flip::FlipMap>,
 }
@@ -28,6 +30,8 @@ pub(super) struct Pair<'a> {
 /// A value, or why there is none.
 pub(super) enum Answer {
     Value(f64, u64),
+    /// A value whose uncertainty is known.
+    Corrected(stack::CorrectedError, u64),
     /// Infinite for equal images.
     Endless,
     Undefined(String),
@@ -61,6 +65,7 @@ impl<'a> Pair<'a> {
             size_px: reference.resolution_px.map(|side| side as usize),
             radiance,
             exit,
+            variance: three(reference, &LayerName::Variance).map(|layer| layer.data.as_slice()),
             coverage: reference.get(&LayerName::Coverage).map(|layer| layer.data.as_slice()),
             flip: OnceCell::new(),
         })
@@ -102,6 +107,13 @@ impl<'a> Pair<'a> {
                 None => number(relative::relmse(r, t, 1e-2)),
             },
             Metric::RelMseTrimmed => number(relative::relmse_trimmed(r, t, 1e-2, 1e-3)),
+            Metric::MseCorrected => match self.variance {
+                Some(variance) => {
+                    let variance = gather(variance, pixels);
+                    Answer::Corrected(stack::corrected_mse_by_variance(r, t, &variance), n)
+                }
+                None => Answer::Undefined("the reference has no variance layer".to_owned()),
+            },
             Metric::Mape => number(relative::mape(r, t, 1e-2)),
             Metric::Smape => number(relative::smape(r, t, 1e-2)),
             Metric::HdrFlip | Metric::LdrFlip => self.flip(sides, pixels),

@@ -6,7 +6,7 @@
 //! variance of one batch, the mean of d² - s²/K has no such bias; it can be
 //! negative, and is then reported so, with its interval.
 
-use super::sum::mean;
+use super::sum::{mean, sum};
 
 /// A bias-corrected error with its uncertainty.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,6 +64,42 @@ pub fn corrected_mse(
     let half = student_975(k - 1) * standard_error;
     let interval = (corrected - half, corrected + half);
     Some(CorrectedError { raw, corrected, standard_error, interval, noise })
+}
+
+/// Bias-corrected mean of d² against a mean image with the variance of that
+/// mean, for references that are stored so and not as batches.
+///
+/// Interleaved RGB. The interval takes the noise of each value as Gaussian
+/// with the given variance v, whose d² - v has variance 4 δ² v + 2 v² (δ the
+/// true difference), pixels as independent and the channels of a pixel as
+/// fully dependent, which can only widen it.
+#[must_use]
+pub fn corrected_mse_by_variance(
+    reference: &[f64],
+    candidate: &[f64],
+    variance: &[f64],
+) -> CorrectedError {
+    let term = |i: usize| ((candidate[i] - reference[i]).powi(2), variance[i]);
+    let raw = mean((0..reference.len()).map(|i| term(i).0));
+    let noise = mean(variance.iter().copied());
+    let deviation = |i: usize| {
+        let (squared, v) = term(i);
+        // d² has expectation δ² + v.
+        (4.0 * (squared - v).max(0.0) * v + 2.0 * v * v).sqrt()
+    };
+    let pixels = reference.len() / 3;
+    let spread =
+        sum((0..pixels).map(|p| (0..3).map(|c| deviation(3 * p + c)).sum::<f64>().powi(2)));
+    let standard_error = spread.sqrt() / reference.len() as f64;
+    let corrected = raw - noise;
+    let half = student_975(usize::MAX) * standard_error;
+    CorrectedError {
+        raw,
+        corrected,
+        standard_error,
+        interval: (corrected - half, corrected + half),
+        noise,
+    }
 }
 
 /// Mean of (candidate - a)(candidate - b) for two independent references of
