@@ -5,12 +5,16 @@
 //! renderers, `reference` and `realtime`, share these descriptions and no
 //! optics, so that their agreement means something.
 
+pub mod builtin;
 pub mod camera;
 pub mod environment;
 pub mod eta;
 pub mod export;
+pub mod format;
+pub mod image;
 pub mod import;
 pub mod layer;
+pub mod materials;
 pub mod medium;
 pub mod mesh;
 pub mod plan;
@@ -18,9 +22,11 @@ pub mod rendering;
 pub mod scene;
 pub mod shape;
 
+pub use builtin::{Builtin, builtin, builtins, find};
 pub use camera::{Camera, Projection, Ray};
 pub use environment::{Cube, Environment};
 pub use eta::Eta;
+pub use format::{Error, load, parse};
 pub use layer::{Layer, LayerName, Layers};
 pub use medium::{Dispersion, Medium, MediumId};
 pub use mesh::Mesh;

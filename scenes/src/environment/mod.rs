@@ -5,8 +5,12 @@
 //! original stays available for agreement with other renderers.
 
 mod cube;
+mod map;
+mod sky;
 
 pub use cube::{Cube, direction_of, face_of};
+pub use map::Repair;
+pub use sky::{Checker, Graticule, Sky, Sun, TurnedSky};
 
 use glam::DVec3;
 use std::sync::Arc;
@@ -29,7 +33,8 @@ pub struct Map {
     pub lat_long: LatLong,
     /// The texels both renderers use by default.
     pub cube: Cube,
-    /// Rotation about +Y that was applied to the original, degrees.
+    /// Turn about the vertical that both lookups apply to the original,
+    /// degrees: what was at -Z moves towards +X.
     pub rotation_deg: f64,
     /// Texels that were NaN, infinite or (if asked) negative and were repaired.
     pub repaired_texels: u64,
