@@ -192,6 +192,16 @@
       button.addEventListener('click', () => update({ image: i }));
       return button;
     }));
+    byId('v-left-name').textContent = state.split > 0 ? scene.images[state.left] : '';
+    byId('v-right-name').textContent = scene.images[state.image];
+    byId('v-facts').replaceChildren(...scene.facts[state.image].map(([name, value]) => {
+      const row = document.createElement('tr'), head = document.createElement('th'), cell = document.createElement('td');
+      head.textContent = name;
+      cell.textContent = value;
+      cell.className = 'n';
+      row.append(head, cell);
+      return row;
+    }));
     byId('v-mode').value = state.mode;
     byId('v-ev').value = state.ev;
     byId('v-ev-text').textContent = `${state.ev > 0 ? '+' : ''}${state.ev} stops`;

@@ -1,1 +1,38 @@
-//! The exact answer.
+//! The exact answer: a CPU ray tracer in f64 that follows every refraction and
+//! reflection.
+//!
+//! Start with [`render`] (module `frame`), which is the image in execution
+//! order. No ray is lost at an edge, no epsilon moves an origin, and what is
+//! not followed is reported.
+
+mod analytic;
+mod bend;
+mod branches;
+mod chain;
+mod convex;
+mod crossing;
+mod edge;
+mod error;
+mod flight;
+mod frame;
+pub mod interface;
+mod layers;
+mod line;
+mod media;
+mod normals;
+mod opaque;
+mod optics;
+mod plan;
+mod request;
+mod topology;
+mod tracer;
+mod trapped;
+mod traverse;
+mod tree;
+mod triangle;
+mod world;
+
+pub use error::Error;
+pub use frame::{Watch, render, render_watched};
+pub use plan::plan;
+pub use request::{EnvironmentLookup, Estimator, Fresnel, Level, Request, Restriction};

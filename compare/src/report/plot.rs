@@ -158,10 +158,9 @@ impl Plot {
                 y.place(c.1)
             );
         }
-        let (last_x, last_y) =
-            (x.place(curve[curve.len() - 1].0), y.place(curve[curve.len() - 1].1));
-        let (anchor, dx) = if last_x > WIDTH - 130.0 { ("end", -6.0) } else { ("start", 8.0) };
-        text(svg, [last_x + dx, (last_y - 8.0).max(TOP + 10.0)], anchor, "exact renderer");
+        let (x, y) = (x.place(curve[0].0), y.place(curve[0].1));
+        let (anchor, dx) = if x > WIDTH - 130.0 { ("end", -8.0) } else { ("start", 8.0) };
+        text(svg, [x + dx, y - 5.0], anchor, "exact renderer");
     }
 
     /// Steps through the methods that no other beats in both time and error.

@@ -1,5 +1,6 @@
 //! HDR data for the viewer in the page, within a budget.
 
+use super::assemble::COLUMNS;
 use super::page::{ImageData, SceneData, SceneView};
 use super::scene_images::SceneImages;
 use super::{block, colour_map};
@@ -27,6 +28,7 @@ pub(super) fn fill(scenes: &mut [SceneView], images: &[SceneImages]) -> (String,
             "height": data.size_px[1],
             "ev": view.ev,
             "images": names,
+            "facts": facts(view, &names),
             // The image beside the exact one at first: the best by exit angle.
             "best": best(view, &names),
         }));
@@ -52,6 +54,22 @@ fn best(view: &SceneView, names: &[&str]) -> usize {
     let best = view.methods.iter().find(|m| m.cells.first().is_some_and(|cell| cell.best));
     let place = best.and_then(|method| names.iter().position(|name| *name == method.name));
     place.unwrap_or(names.len() - 1)
+}
+
+/// Names and values of the verdict for each image; none for the exact one.
+fn facts(view: &SceneView, names: &[&str]) -> Vec<Vec<(String, String)>> {
+    let of_image = |name: &&str| {
+        let Some(method) = view.methods.iter().find(|method| method.name == **name) else {
+            return Vec::new();
+        };
+        let columns = COLUMNS
+            .iter()
+            .zip(&method.cells)
+            .map(|((_, head, unit), cell)| (head.to_string(), format!("{} {unit}", cell.text)));
+        let cost = [("frame", &method.time.text), ("memory", &method.memory)];
+        columns.chain(cost.map(|(name, text)| (name.to_owned(), text.clone()))).collect()
+    };
+    names.iter().map(of_image).collect()
 }
 
 /// The two colour tables: even ramp, FLIP; 256 colours each, base64.

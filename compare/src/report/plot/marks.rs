@@ -59,7 +59,8 @@ pub(super) fn line(svg: &mut String, [x1, y1, x2, y2]: [f64; 4], colour: &str, m
 pub(super) fn text(svg: &mut String, [x, y]: [f64; 2], anchor: &str, content: &str) {
     let _ = write!(
         svg,
-        "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\" fill=\"{INK}\">{}</text>",
+        "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\" fill=\"{INK}\" \
+         stroke=\"var(--paper, #fff)\" stroke-width=\"3\" paint-order=\"stroke\">{}</text>",
         escape(content)
     );
 }

@@ -1,0 +1,45 @@
+//! Why an exact image cannot be made.
+
+/// Every error says where, what, and what to do instead.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Error {
+    /// A body without an inside.
+    #[error(
+        "object \"{object}\": its mesh is open ({edges} edges have no partner), so \"inside the \
+         glass\" has no meaning\nclose it, or make the object opaque (surface = \"unlit\" or \
+         \"lambert\")"
+    )]
+    OpenMesh {
+        /// Name of the object.
+        object: String,
+        /// Edges whose two directions do not occur equally often.
+        edges: usize,
+    },
+    /// More triangles than a tree can address.
+    #[error("the scene has {0} triangles; the reference can hold {most}", most = crate::tree::MOST_TRIANGLES)]
+    TooManyTriangles(usize),
+    /// More kinds of media than the winding counts can hold.
+    #[error("the scene has {0} different pairs of medium and priority; the reference can hold 256")]
+    TooManyMedia(usize),
+    /// An unknown or not yet computed layer.
+    #[error(
+        "the reference has no layer \"{0}\" at this level\nthe layers are listed by `snell methods`"
+    )]
+    Layer(String),
+    /// A number outside its range.
+    #[error("{name} = {value} is out of range: {range}")]
+    Range {
+        /// Which number.
+        name: &'static str,
+        /// What it was.
+        value: String,
+        /// What it may be.
+        range: &'static str,
+    },
+    /// Something in the scene that is understood and not rendered yet.
+    #[error("{0} is not rendered by the reference yet")]
+    NotYet(String),
+    /// The caller asked to stop.
+    #[error("stopped before the image was finished")]
+    Cancelled,
+}

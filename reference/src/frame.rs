@@ -1,0 +1,271 @@
+//! An image, in execution order. Read this first.
+//!
+//! bake the scene -> choose the tracer's variant -> rows in parallel: for each
+//! pixel, the chain through its centre and the radiance over its positions ->
+//! layers.
+
+use crate::branches::Branch;
+use crate::error::Error;
+use crate::flight::{Counters, Scratch};
+use crate::layers::{Columns, Pixel};
+use crate::media::{Counts, Inside, Media};
+use crate::plan::Variant;
+use crate::request::{Estimator, Level, Request};
+use crate::tracer::Tracer;
+use crate::world::World;
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+use scenes::rendering::{Pass, Provenance, Time, TimeSource};
+use scenes::{Camera, LayerName, Layers, Rendering, Scene};
+use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::time::Instant;
+
+/// How a long rendering is observed and stopped.
+#[derive(Clone, Copy, Default)]
+pub struct Watch<'a> {
+    /// Called with the share that is done, 0 to 1, from any thread.
+    pub progress: Option<&'a (dyn Fn(f64) + Sync)>,
+    /// Set to true to stop; the rendering then ends in [`Error::Cancelled`].
+    pub cancel: Option<&'a AtomicBool>,
+}
+
+/// Renders a scene exactly.
+///
+/// The layers are the same, bit by bit, for any number of threads.
+///
+/// # Errors
+/// [`Error`]: the scene has no exact image (an open glass mesh), the request
+/// asks for something unknown or out of range.
+pub fn render(scene: &Scene, request: &Request) -> Result<Rendering, Error> {
+    render_watched(scene, request, Watch::default())
+}
+
+/// [`render`] with progress and a way to stop.
+///
+/// # Errors
+/// As [`render`], and [`Error::Cancelled`].
+pub fn render_watched(
+    scene: &Scene,
+    request: &Request,
+    watch: Watch<'_>,
+) -> Result<Rendering, Error> {
+    request.check()?;
+    if matches!(request.estimator, Estimator::Paths { .. }) {
+        return Err(Error::NotYet("path sampling".to_owned()));
+    }
+    let columns = Columns::new(scene, request)?;
+    let started = Instant::now();
+    let world = World::new(scene, request.view.frame, request.level)?;
+    let built = Instant::now();
+    let camera = Camera { resolution_px: request.view.resolution_px, ..scene.camera };
+    let variant = Variant::new(scene, &world, request, &columns);
+    let tracer = Tracer::new(scene, &world, &camera, request);
+    let job = Job { tracer: &tracer, camera, request, columns: &columns, watch };
+    let (layers, counters) = variant.run(&job)?;
+    let time = |name: &str, from: Instant, to: Instant| Pass {
+        name: name.to_owned(),
+        times: vec![Time {
+            source: TimeSource::Wall,
+            milliseconds: to.duration_since(from).as_secs_f64() * 1e3,
+        }],
+    };
+    Ok(Rendering {
+        layers,
+        passes: vec![time("build", started, built), time("trace", built, Instant::now())],
+        counters: counters.named(&world),
+        plan: variant.plan(scene, &world, request, &columns),
+        provenance: provenance(request),
+    })
+}
+
+/// Everything a row needs.
+pub(crate) struct Job<'a> {
+    pub(crate) tracer: &'a Tracer<'a>,
+    pub(crate) camera: Camera,
+    pub(crate) request: &'a Request,
+    pub(crate) columns: &'a Columns,
+    pub(crate) watch: Watch<'a>,
+}
+
+impl Variant {
+    /// Compiled code for each combination that can be chosen.
+    fn run(&self, job: &Job<'_>) -> Result<(Layers, Counters), Error> {
+        match self.classes {
+            0 => self.run_with::<Inside>(job),
+            1 => self.run_with::<Counts<1>>(job),
+            2..=4 => self.run_with::<Counts<4>>(job),
+            5..=16 => self.run_with::<Counts<16>>(job),
+            _ => self.run_with::<Counts<256>>(job),
+        }
+    }
+
+    fn run_with<M: Media + Send>(&self, job: &Job<'_>) -> Result<(Layers, Counters), Error> {
+        match (self.uniform, self.lengths) {
+            (false, false) => job.image::<M, false, false>(),
+            (false, true) => job.image::<M, false, true>(),
+            (true, false) => job.image::<M, true, false>(),
+            (true, true) => job.image::<M, true, true>(),
+        }
+    }
+}
+
+impl Job<'_> {
+    fn image<M: Media + Send, const UNIFORM: bool, const LENGTHS: bool>(
+        &self,
+    ) -> Result<(Layers, Counters), Error> {
+        let [width, height] = self.request.view.resolution_px;
+        let done = AtomicUsize::new(0);
+        let rows: Result<Vec<(Vec<f64>, Counters)>, Error> = (0..height)
+            .into_par_iter()
+            .map_init(
+                || (Scratch::default(), Vec::new()),
+                |(scratch, waiting), y| {
+                    let cancelled = |flag: &AtomicBool| flag.load(Ordering::Relaxed);
+                    if self.watch.cancel.is_some_and(cancelled) {
+                        return Err(Error::Cancelled);
+                    }
+                    scratch.counters = Counters::default();
+                    let mut row = Vec::with_capacity(width as usize * self.columns.stride);
+                    for x in 0..width {
+                        let pixel = self.pixel::<M, UNIFORM, LENGTHS>(
+                            DVec2::new(x.into(), y.into()),
+                            scratch,
+                            waiting,
+                        );
+                        self.columns.write(&pixel, &mut row);
+                    }
+                    let rows_done = done.fetch_add(1, Ordering::Relaxed) + 1;
+                    if let Some(progress) = self.watch.progress {
+                        progress(rows_done as f64 / f64::from(height));
+                    }
+                    Ok((row, scratch.counters))
+                },
+            )
+            .collect();
+        let rows = rows?;
+        let mut counters = Counters::default();
+        rows.iter().for_each(|(_, counted)| counters.add(counted));
+        let rows: Vec<Vec<f64>> = rows.into_iter().map(|(row, _)| row).collect();
+        Ok((self.columns.layers([width, height], &rows), counters))
+    }
+
+    /// One pixel: the chain through its centre, if a layer shows it, and the
+    /// mean over its positions.
+    fn pixel<M: Media, const UNIFORM: bool, const LENGTHS: bool>(
+        &self,
+        corner_px: DVec2,
+        scratch: &mut Scratch,
+        waiting: &mut Vec<Branch<M>>,
+    ) -> Pixel {
+        let mut pixel = Pixel::default();
+        if self.columns.needs_chain {
+            let ray = self.camera.ray_through(corner_px + 0.5);
+            let flight = self.tracer.launch(ray, scratch);
+            pixel.chain = self.tracer.chain::<M, UNIFORM, LENGTHS>(flight, scratch);
+        }
+        if !self.columns.needs_mean {
+            return pixel;
+        }
+        let k = self.request.view.positions_per_axis;
+        for index in 0..k * k {
+            let at = DVec2::new(f64::from(index % k), f64::from(index / k)) + 0.5;
+            self.sample::<M, UNIFORM, LENGTHS>(
+                corner_px + at / f64::from(k),
+                &mut pixel,
+                scratch,
+                waiting,
+            );
+        }
+        let share = 1.0 / f64::from(k * k);
+        pixel.radiance *= share;
+        pixel.truncated *= share;
+        pixel.coverage *= share;
+        pixel.samples = f64::from(k * k);
+        pixel
+    }
+
+    /// Adds the light through one position.
+    fn sample<M: Media, const UNIFORM: bool, const LENGTHS: bool>(
+        &self,
+        position_px: DVec2,
+        pixel: &mut Pixel,
+        scratch: &mut Scratch,
+        waiting: &mut Vec<Branch<M>>,
+    ) {
+        let flight: crate::flight::Flight<M> =
+            self.tracer.launch(self.camera.ray_through(position_px), scratch);
+        if self.request.level == Level::R0 {
+            let chain = self.tracer.chain::<M, UNIFORM, LENGTHS>(flight, scratch);
+            pixel.radiance += chain.radiance;
+            pixel.truncated += f64::from(u8::from(chain.lost()));
+            pixel.coverage += f64::from(u8::from(chain.events > 0));
+            return;
+        }
+        let cut = match self.request.estimator {
+            Estimator::Tree { cut } => cut,
+            Estimator::Paths { .. } => 0.0,
+        };
+        if !self.tracer.disperses {
+            let optics = &self.tracer.optics[crate::optics::D_LINE];
+            let sum =
+                self.tracer.tree::<M, UNIFORM, LENGTHS>(flight, optics, cut, waiting, scratch);
+            pixel.radiance += sum.radiance;
+            pixel.truncated += sum.truncated;
+            pixel.coverage += f64::from(u8::from(sum.met));
+            return;
+        }
+        let mut truncated = DVec3::ZERO;
+        for channel in 0..3 {
+            let optics = &self.tracer.optics[channel];
+            let flight = flight.clone();
+            let sum =
+                self.tracer.tree::<M, UNIFORM, LENGTHS>(flight, optics, cut, waiting, scratch);
+            pixel.radiance[channel] += sum.radiance[channel];
+            truncated[channel] = sum.truncated;
+            if channel == crate::optics::D_LINE {
+                pixel.coverage += f64::from(u8::from(sum.met));
+            }
+        }
+        pixel.truncated += truncated.max_element();
+    }
+}
+
+fn provenance(request: &Request) -> Provenance {
+    let mut parameters = BTreeMap::new();
+    let mut set = |name: &str, value: String| parameters.insert(name.to_owned(), value);
+    set("level", format!("{:?}", request.level));
+    set("estimator", format!("{:?}", request.estimator));
+    set("environment_lookup", format!("{:?}", request.environment_lookup));
+    set("restriction", format!("{:?}", request.restriction));
+    set("positions_per_axis", request.view.positions_per_axis.to_string());
+    set("frame", request.view.frame.to_string());
+    let seed = match request.estimator {
+        Estimator::Paths { seed, .. } => Some(seed),
+        Estimator::Tree { .. } => None,
+    };
+    Provenance {
+        renderer: "reference".to_owned(),
+        parameters,
+        adapter: format!("CPU, {} threads", rayon::current_num_threads()),
+        driver: String::new(),
+        software: true,
+        seed,
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+    }
+}
+
+/// True for layers that come from the chain through the pixel's centre.
+pub(crate) fn is_of_chain(name: &LayerName) -> bool {
+    matches!(
+        name,
+        LayerName::Exit
+            | LayerName::ExitPosition
+            | LayerName::First
+            | LayerName::Hit2
+            | LayerName::Events
+            | LayerName::TotalReflections
+            | LayerName::Flags
+            | LayerName::Path(_)
+    )
+}

@@ -1,0 +1,120 @@
+//! From pixels to named layers.
+
+use crate::chain::Chain;
+use crate::error::Error;
+use crate::frame::is_of_chain;
+use crate::request::Request;
+use glam::DVec3;
+use scenes::{LayerName, Layers, Scene};
+
+/// Everything that can be known about a pixel.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Pixel {
+    pub(crate) chain: Chain,
+    pub(crate) radiance: DVec3,
+    pub(crate) truncated: f64,
+    pub(crate) coverage: f64,
+    pub(crate) samples: f64,
+}
+
+/// The layers asked for, as columns of a row of pixels.
+#[derive(Clone, Debug)]
+pub(crate) struct Columns {
+    names: Vec<(LayerName, usize)>,
+    /// Medium of each `path.<medium>` layer, in order.
+    media: Vec<usize>,
+    /// Numbers per pixel.
+    pub(crate) stride: usize,
+    /// A layer shows the chain through the pixel's centre.
+    pub(crate) needs_chain: bool,
+    /// A layer shows the mean over the pixel's positions.
+    pub(crate) needs_mean: bool,
+}
+
+impl Columns {
+    pub(crate) fn new(scene: &Scene, request: &Request) -> Result<Self, Error> {
+        let mut names: Vec<(LayerName, usize)> = Vec::new();
+        let mut media = Vec::new();
+        for name in &request.view.layers {
+            let unknown = || Error::Layer(name.to_string());
+            let channels = match name {
+                LayerName::Radiance
+                | LayerName::Exit
+                | LayerName::ExitPosition
+                | LayerName::First
+                | LayerName::Hit2 => 3,
+                LayerName::Coverage
+                | LayerName::Events
+                | LayerName::TotalReflections
+                | LayerName::Flags
+                | LayerName::Truncated
+                | LayerName::Samples => 1,
+                LayerName::Path(medium) => {
+                    let found = scene.media.iter().position(|m| m.name == *medium);
+                    media.push(found.ok_or_else(unknown)?);
+                    1
+                }
+                _ => return Err(unknown()),
+            };
+            if !names.iter().any(|(other, _)| other == name) {
+                names.push((name.clone(), channels));
+            }
+        }
+        Ok(Self {
+            stride: names.iter().map(|(_, channels)| channels).sum(),
+            needs_chain: names.iter().any(|(name, _)| is_of_chain(name)),
+            needs_mean: names.iter().any(|(name, _)| !is_of_chain(name)),
+            media,
+            names,
+        })
+    }
+
+    /// True if a layer shows lengths per medium.
+    pub(crate) fn needs_lengths(&self) -> bool {
+        !self.media.is_empty()
+    }
+
+    /// Names and channels, in order.
+    pub(crate) fn names(&self) -> &[(LayerName, usize)] {
+        &self.names
+    }
+
+    /// Appends a pixel's numbers to a row.
+    pub(crate) fn write(&self, pixel: &Pixel, row: &mut Vec<f64>) {
+        let chain = &pixel.chain;
+        let mut media = self.media.iter();
+        for (name, _) in &self.names {
+            let vector = |row: &mut Vec<f64>, v: DVec3| row.extend(v.to_array());
+            match name {
+                LayerName::Radiance => vector(row, pixel.radiance),
+                LayerName::Exit => vector(row, chain.exit),
+                LayerName::ExitPosition => vector(row, chain.exit_position),
+                LayerName::First => vector(row, chain.first),
+                LayerName::Hit2 => vector(row, chain.hit2),
+                LayerName::Coverage => row.push(pixel.coverage),
+                LayerName::Events => row.push(f64::from(chain.events)),
+                LayerName::TotalReflections => row.push(f64::from(chain.total_reflections)),
+                LayerName::Flags => row.push(f64::from(chain.flags)),
+                LayerName::Truncated => row.push(pixel.truncated),
+                LayerName::Samples => row.push(pixel.samples),
+                _ => {
+                    let length = media.next().and_then(|medium| chain.lengths.get(*medium));
+                    row.push(length.copied().unwrap_or(0.0));
+                }
+            }
+        }
+    }
+
+    /// Gathers finished rows into layers.
+    pub(crate) fn layers(&self, resolution_px: [u32; 2], rows: &[Vec<f64>]) -> Layers {
+        let mut layers = Layers::new(resolution_px);
+        let mut offset = 0;
+        for (name, channels) in &self.names {
+            let pixels = rows.iter().flat_map(|row| row.chunks_exact(self.stride));
+            let data = pixels.flat_map(|pixel| &pixel[offset..offset + channels]).copied();
+            layers.push(name.clone(), *channels, data.collect());
+            offset += channels;
+        }
+        layers
+    }
+}

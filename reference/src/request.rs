@@ -1,0 +1,137 @@
+//! What the reference is asked for.
+
+use crate::error::Error;
+use scenes::View;
+
+/// An exact image of a scene, and how exact.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Request {
+    /// Size, positions per pixel, frame, layers.
+    pub view: View,
+    /// How much of the light transport counts.
+    pub level: Level,
+    /// How the sum over paths is formed.
+    pub estimator: Estimator,
+    /// Which form of the environment map is looked up.
+    pub environment_lookup: EnvironmentLookup,
+    /// Physics taken away on purpose, to attribute an approximation's error.
+    pub restriction: Restriction,
+    /// Do not specialise the tracer to the scene. For tests: the image is the
+    /// same, bit by bit.
+    pub general: bool,
+}
+
+/// Which light arrives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Level {
+    /// One chain: always transmitted, reflected only when totally reflected; no
+    /// Fresnel weights, environment only.
+    R0,
+    /// The full tree of refractions and reflections, environment only.
+    R1,
+    /// R1 and opaque surroundings.
+    R2,
+}
+
+/// How the sum over paths is formed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Estimator {
+    /// Follows both continuations of every event. The weaker one is dropped
+    /// when its weight falls below `cut`; what was dropped is reported in the
+    /// `truncated` layer.
+    Tree {
+        /// Weight of a branch, of 1 per camera ray.
+        cut: f64,
+    },
+    /// Unbiased random paths.
+    Paths {
+        /// Independent estimates, from which the variance is taken.
+        batches: u32,
+        /// Camera rays per pixel and batch.
+        samples: u32,
+        /// Seed of the sample sequence.
+        seed: u64,
+    },
+}
+
+/// Which form of the environment map is looked up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EnvironmentLookup {
+    /// The cube that the GPU uses too: for judging approximations.
+    Cube,
+    /// The lat-long original: for agreement with other renderers.
+    LatLong,
+}
+
+/// Reflectance formulas.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Fresnel {
+    /// Fresnel's equations, unpolarised.
+    #[default]
+    Exact,
+    /// Schlick's polynomial.
+    Schlick,
+    /// (1 - cos θ)³, as Seipel & Nivfors used it.
+    Cubic,
+}
+
+/// Physics taken away.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Restriction {
+    /// After this many interfaces light comes straight from the environment.
+    pub max_interfaces: Option<u32>,
+    /// Paths with more events than this are dropped (and count as truncated).
+    pub max_events: u32,
+    /// Reflections off the inside of a body that are not total are dropped.
+    pub internal_reflection: bool,
+    /// Reflectance formula.
+    pub fresnel: Fresnel,
+}
+
+impl Default for Restriction {
+    fn default() -> Self {
+        Self {
+            max_interfaces: None,
+            max_events: 20_000,
+            internal_reflection: true,
+            fresnel: Fresnel::Exact,
+        }
+    }
+}
+
+impl Request {
+    /// Refuses numbers that cannot be meant.
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        let [width, height] = self.view.resolution_px;
+        let range = |name, value: String, range| Err(Error::Range { name, value, range });
+        if !(1..=65_536).contains(&width) || !(1..=65_536).contains(&height) {
+            return range("resolution", format!("{width} x {height}"), "1 to 65536 pixels a side");
+        }
+        let k = self.view.positions_per_axis;
+        if !(1..=256).contains(&k) {
+            return range("positions per axis", k.to_string(), "1 to 256");
+        }
+        match self.estimator {
+            Estimator::Tree { cut } if !(0.0..=1.0).contains(&cut) => {
+                range("cut", cut.to_string(), "0 to 1")
+            }
+            Estimator::Paths { batches: 0, .. } | Estimator::Paths { samples: 0, .. } => {
+                range("batches or samples", "0".to_owned(), "at least 1")
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The full tree to a cut weight of 1e-4, everything on.
+    #[must_use]
+    pub fn new(view: View, level: Level) -> Self {
+        Self {
+            view,
+            level,
+            estimator: Estimator::Tree { cut: 1e-4 },
+            environment_lookup: EnvironmentLookup::Cube,
+            restriction: Restriction::default(),
+            general: false,
+        }
+    }
+}

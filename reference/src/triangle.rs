@@ -1,0 +1,117 @@
+//! Where a line crosses a triangle: watertight, in f64, from both sides alike.
+
+use crate::edge::{cross, resolve};
+use crate::line::Line;
+use glam::DVec3;
+
+/// A triangle where the traversal finds it, corners in world space.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Triangle {
+    pub(crate) corners: [[f64; 3]; 3],
+    /// Number that does not depend on the tree.
+    pub(crate) id: u32,
+    /// Index of the body it belongs to.
+    pub(crate) body: u32,
+}
+
+/// A line's passage through a triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Pierce {
+    pub(crate) t: f64,
+    /// Weights of the corners, ≥ 0, sum 1.
+    pub(crate) weights: [f64; 3],
+    /// True when the line goes against the normal. From exact signs.
+    pub(crate) entering: bool,
+}
+
+impl Triangle {
+    /// The passage of a line through this triangle, if there is one. Along a
+    /// full line a closed mesh is entered exactly as often as it is left.
+    #[inline(always)]
+    pub(crate) fn pierce(&self, line: &Line) -> Option<Pierce> {
+        let (a, a_t) = line.see(&self.corners[0]);
+        let (b, b_t) = line.see(&self.corners[1]);
+        let (c, c_t) = line.see(&self.corners[2]);
+        let [mut u, mut v, mut w] = [cross(c, b), cross(a, c), cross(b, a)];
+        if u == 0.0 || v == 0.0 || w == 0.0 {
+            [u, v, w] = [resolve(c, b), resolve(a, c), resolve(b, a)];
+        }
+        let negative = u.is_sign_negative();
+        if v.is_sign_negative() != negative || w.is_sign_negative() != negative {
+            return None;
+        }
+        let sum = u + v + w;
+        if sum == 0.0 {
+            return None;
+        }
+        let weights = [u / sum, v / sum, w / sum];
+        let t = weights[0] * a_t + weights[1] * b_t + weights[2] * c_t;
+        Some(Pierce { t, weights, entering: !negative })
+    }
+
+    pub(crate) fn corner(&self, i: usize) -> DVec3 {
+        DVec3::from_array(self.corners[i])
+    }
+
+    /// Unit normal on the side from which the corners run counter-clockwise;
+    /// zero for a triangle without area.
+    pub(crate) fn normal(&self) -> DVec3 {
+        let [a, b, c] = [0, 1, 2].map(|i| self.corner(i));
+        (b - a).cross(c - a).normalize_or_zero()
+    }
+
+    /// The point with these weights.
+    pub(crate) fn point(&self, weights: [f64; 3]) -> DVec3 {
+        let [a, b, c] = [0, 1, 2].map(|i| self.corner(i));
+        a + (b - a) * weights[1] + (c - a) * weights[2]
+    }
+
+    /// Distance from a point of the triangle to its nearest edge.
+    pub(crate) fn distance_to_edge(&self, point: DVec3) -> f64 {
+        let [a, b, c] = [0, 1, 2].map(|i| self.corner(i));
+        let to = |p: DVec3, q: DVec3| (q - p).cross(point - p).length() / (q - p).length();
+        to(a, b).min(to(b, c)).min(to(c, a))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn triangle(corners: [[f64; 3]; 3]) -> Triangle {
+        Triangle { corners, id: 0, body: 0 }
+    }
+
+    #[test]
+    fn entering_means_against_the_normal() {
+        let t = triangle([[0.0, 0.0, 0.0], [1.0, 0.0, 0.1], [0.0, 1.0, -0.2]]);
+        for origin in [DVec3::new(0.2, 0.3, 4.0), DVec3::new(3.0, -2.0, -1.0)] {
+            let to = t.point([0.3, 0.3, 0.4]);
+            let line = Line::new(origin, (to - origin).normalize());
+            let pierce = t.pierce(&line).expect("aimed at the inside");
+            assert_eq!(pierce.entering, line.direction.dot(t.normal()) < 0.0);
+            assert!((line.at(pierce.t) - to).length() < 1e-14);
+            assert!((t.point(pierce.weights) - to).length() < 1e-14);
+        }
+    }
+
+    /// Two triangles that share an edge: a line through a point of it pierces
+    /// one of them, never both or neither.
+    #[test]
+    fn a_line_through_a_shared_edge_meets_one_triangle() {
+        let (p, q) = ([0.0, 0.0, 0.0], [1.0, 0.5, 0.25]);
+        let left = triangle([p, q, [0.0, 2.0, 0.0]]);
+        let right = triangle([q, p, [1.0, -2.0, 0.0]]);
+        for i in 0..=64 {
+            let s = f64::from(i) / 64.0;
+            let on = DVec3::from_array(q) * s;
+            for direction in [DVec3::Z, DVec3::NEG_Z, DVec3::new(0.6, 0.0, 0.8)] {
+                let line = Line::new(on - direction * 3.0, direction);
+                let met = [&left, &right].map(|t| t.pierce(&line).is_some());
+                if i > 0 && i < 64 {
+                    assert!(met[0] != met[1], "{s} {direction}");
+                }
+            }
+        }
+    }
+}

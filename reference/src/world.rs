@@ -1,0 +1,216 @@
+//! The scene at one moment, in world space and ready to be traced.
+
+use crate::error::Error;
+use crate::line::Line;
+use crate::normals::{Smooth, smooth_normals};
+use crate::request::Level;
+use crate::topology::unmatched_edges;
+use crate::tree::{MOST_TRIANGLES, Tree};
+use crate::triangle::Triangle;
+use glam::{DAffine3, DMat3, DVec3};
+use scenes::scene::Normals;
+use scenes::{MediumId, Mesh, Object, Scene, Shape, Surface};
+use std::sync::Arc;
+
+/// Bodies, what they are made of, and the tree over their triangles.
+#[derive(Clone, Debug)]
+pub(crate) struct World {
+    pub(crate) tree: Tree,
+    pub(crate) bodies: Vec<Body>,
+    /// Bodies that are not in the tree.
+    pub(crate) analytic: Vec<Analytic>,
+    /// Number of the first analytic body's entry; triangles have smaller ones.
+    pub(crate) first_analytic: u32,
+    /// Sorted by precedence.
+    pub(crate) classes: Vec<Class>,
+    /// Corners of a box around every body; infinite with unbounded ones.
+    pub(crate) bounds: [DVec3; 2],
+}
+
+/// A kind of solid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Class {
+    pub(crate) medium: MediumId,
+    pub(crate) priority: i32,
+}
+
+/// One object of the scene.
+#[derive(Clone, Debug)]
+pub(crate) struct Body {
+    /// Index into the scene's objects.
+    pub(crate) object: usize,
+    /// Index into the classes; `None` for opaque bodies.
+    pub(crate) class: Option<usize>,
+    pub(crate) object_from_world: DAffine3,
+    /// Number of its first triangle.
+    pub(crate) first_id: u32,
+    /// Shading normals, if they differ from the geometric ones.
+    pub(crate) smooth: Option<Smooth>,
+}
+
+/// A convex shape without triangles.
+#[derive(Clone, Debug)]
+pub(crate) struct Analytic {
+    pub(crate) body: u32,
+    /// Number of its entry; the exit has the next.
+    pub(crate) id: u32,
+    pub(crate) shape: Arc<Shape>,
+    pub(crate) world_from_object: DAffine3,
+    pub(crate) object_from_world: DAffine3,
+    /// World normals from object normals, up to length.
+    pub(crate) normal_from_object: DMat3,
+}
+
+impl World {
+    /// Bakes a frame of the scene.
+    ///
+    /// # Errors
+    /// A dielectric mesh is open, or there are too many triangles or media.
+    pub(crate) fn new(scene: &Scene, frame: u32, level: Level) -> Result<Self, Error> {
+        let shown = |object: &Object| {
+            level == Level::R2 || matches!(object.surface, Surface::Dielectric { .. })
+        };
+        let objects: Vec<(usize, &Object)> =
+            scene.objects.iter().enumerate().filter(|(_, object)| shown(object)).collect();
+        let classes = classes_of(&objects);
+        if classes.len() > 256 {
+            return Err(Error::TooManyMedia(classes.len()));
+        }
+        let count: usize =
+            objects.iter().filter_map(|(_, o)| o.shape.mesh()).map(|m| m.triangles.len()).sum();
+        if count > MOST_TRIANGLES {
+            return Err(Error::TooManyTriangles(count));
+        }
+        let mut world = Self {
+            tree: Tree::default(),
+            bodies: Vec::with_capacity(objects.len()),
+            analytic: Vec::new(),
+            first_analytic: count as u32,
+            classes,
+            bounds: [DVec3::INFINITY, DVec3::NEG_INFINITY],
+        };
+        let mut triangles = Vec::with_capacity(count);
+        let time_s = scene.time_s(frame);
+        for (index, object) in objects {
+            world.add(index, object, time_s, &mut triangles)?;
+        }
+        world.tree = Tree::build(triangles);
+        Ok(world)
+    }
+
+    fn add(
+        &mut self,
+        index: usize,
+        object: &Object,
+        time_s: f64,
+        triangles: &mut Vec<Triangle>,
+    ) -> Result<(), Error> {
+        let class = match object.surface {
+            Surface::Dielectric { medium, priority } => {
+                self.classes.iter().position(|class| *class == Class { medium, priority })
+            }
+            _ => None,
+        };
+        let body = self.bodies.len() as u32;
+        let mut first_id = triangles.len() as u32;
+        let mut smooth = None;
+        let world_from_object = object.world_from_object_at(time_s);
+        self.include(object.shape.bounds(), world_from_object);
+        let object_from_world = world_from_object.inverse();
+        let normal_from_object = object_from_world.matrix3.transpose();
+        if let Shape::Mesh(mesh) = object.shape.as_ref() {
+            let edges = if class.is_some() { unmatched_edges(mesh) } else { 0 };
+            if edges > 0 {
+                return Err(Error::OpenMesh { object: object.name.clone(), edges });
+            }
+            bake(mesh, world_from_object, first_id, body, triangles);
+            if object.normals == Normals::Smooth {
+                smooth = Some(smooth_normals(mesh, normal_from_object));
+            }
+        } else {
+            first_id = self.first_analytic + 2 * self.analytic.len() as u32;
+            self.analytic.push(Analytic {
+                body,
+                id: first_id,
+                shape: Arc::clone(&object.shape),
+                world_from_object,
+                object_from_world,
+                normal_from_object,
+            });
+        }
+        self.bodies.push(Body { object: index, class, object_from_world, first_id, smooth });
+        Ok(())
+    }
+}
+
+impl World {
+    /// Widens the bounds by a box in object space.
+    fn include(&mut self, [low, high]: [DVec3; 2], world_from_object: DAffine3) {
+        let [mut least, mut most] = self.bounds;
+        for corner in 0..8 {
+            let pick = |axis: usize| if corner >> axis & 1 == 0 { low[axis] } else { high[axis] };
+            let point = DVec3::new(pick(0), pick(1), pick(2));
+            if !point.is_finite() {
+                self.bounds = [DVec3::NEG_INFINITY, DVec3::INFINITY];
+                return;
+            }
+            let point = world_from_object.transform_point3(point);
+            (least, most) = (least.min(point), most.max(point));
+        }
+        // Room for what rounding does to the corners.
+        let room = (most - least).max_element() * 1e-9;
+        self.bounds = [least - room, most + room];
+    }
+
+    /// Bytes held: tree, triangles, normals.
+    pub(crate) fn bytes(&self) -> u64 {
+        let smooth = self.bodies.iter().filter_map(|body| body.smooth.as_ref());
+        self.tree.bytes() + smooth.map(Smooth::bytes).sum::<u64>()
+    }
+
+    /// True when both numbers belong to one analytic body.
+    pub(crate) fn same_analytic(&self, a: u32, b: u32) -> bool {
+        let pair = |id: u32| id.checked_sub(self.first_analytic).map(|id| id / 2);
+        pair(a).is_some() && pair(a) == pair(b)
+    }
+}
+
+fn classes_of(objects: &[(usize, &Object)]) -> Vec<Class> {
+    let mut classes: Vec<Class> = objects
+        .iter()
+        .filter_map(|(_, object)| match object.surface {
+            Surface::Dielectric { medium, priority } => Some(Class { medium, priority }),
+            _ => None,
+        })
+        .collect();
+    classes.sort_by_key(|class| (std::cmp::Reverse(class.priority), class.medium));
+    classes.dedup();
+    classes
+}
+
+/// World-space triangles of a mesh. Each vertex is transformed once, so that
+/// triangles which share it share its bits.
+fn bake(mesh: &Mesh, place: DAffine3, first_id: u32, body: u32, into: &mut Vec<Triangle>) {
+    let positions: Vec<[f64; 3]> =
+        mesh.positions.iter().map(|p| place.transform_point3(*p).to_array()).collect();
+    let mirrored = place.matrix3.determinant() < 0.0;
+    into.extend(mesh.triangles.iter().enumerate().map(|(i, corners)| {
+        let [a, b, c] = corners.map(|corner| positions[corner as usize]);
+        let corners = if mirrored { [a, c, b] } else { [a, b, c] };
+        Triangle { corners, id: first_id + i as u32, body }
+    }));
+}
+
+impl Analytic {
+    /// Where a line enters and leaves, and the outward unit normals, in world
+    /// space.
+    pub(crate) fn chord(&self, line: &Line) -> Option<[(f64, DVec3, DVec3); 2]> {
+        let origin = self.object_from_world.transform_point3(line.origin);
+        let direction = self.object_from_world.transform_vector3(line.direction);
+        let touches = crate::analytic::chord(&self.shape, origin, direction)?;
+        Some(touches.map(|touch| {
+            let point = self.world_from_object.transform_point3(touch.point);
+            (touch.t, point, (self.normal_from_object * touch.normal).normalize())
+        }))
+    }
+}
