@@ -4,9 +4,10 @@ use super::number::{bytes, digits, duration};
 use super::numbers::{Numbers, is_better, usable};
 use super::page::{Cell, MethodView, Page, SceneView};
 use super::scene_images::SceneImages;
-use super::{ReportError, scene_plots, verdict, viewer};
+use super::{ReportError, files, scene_plots, verdict, viewer};
 use crate::metric::{Better, Mask, Metric};
 use crate::results::{REFERENCE, ResultRow, RowKind, Run, SceneEntry, Status, Study};
+use rayon::prelude::*;
 use std::path::Path;
 
 /// Metrics of the verdict table: figures of merit first.
@@ -18,32 +19,38 @@ pub(super) const COLUMNS: [(Metric, &str, &str); 5] = [
     (Metric::HdrFlip, "FLIP", ""),
 ];
 
-/// Reads the images, makes every picture, and fills a page.
+/// Reads the images, makes every picture and its file, and fills a page.
+///
+/// One scene after the other per thread: a study's images together may be
+/// larger than memory.
 pub(super) fn assemble(
     directory: &Path,
     study: Study,
     rows: &[ResultRow],
-) -> Result<(Page, Vec<SceneImages>), ReportError> {
+) -> Result<Page, ReportError> {
     let numbers = Numbers::new(rows);
     let styles = styles(&study);
-    let mut scenes = Vec::new();
-    let mut images = Vec::new();
-    for (index, entry) in study.scenes.iter().enumerate() {
-        let read = SceneImages::read(directory, &study, entry)?;
-        scenes.push(scene_view(index, entry, &study, &numbers, &styles, &read));
-        images.push(read);
-    }
-    let (viewer_json, size_note) = viewer::fill(&mut scenes, &images);
-    let page = Page {
+    let factor = viewer::shrinking(&study);
+    let one_scene = |(index, entry): (usize, &SceneEntry)| {
+        let images = SceneImages::read(directory, &study, entry)?;
+        let mut view = scene_view(index, entry, &study, &numbers, &styles);
+        view.ev = images.ev;
+        view.data = viewer::data(&view, &images, factor);
+        files::place(directory, &mut view, images.pictures())?;
+        Ok(view)
+    };
+    let scenes: Result<Vec<SceneView>, ReportError> =
+        study.scenes.par_iter().enumerate().map(one_scene).collect();
+    let scenes = scenes?;
+    Ok(Page {
         headline: verdict::sentences(&study, &numbers),
         columns: COLUMNS.map(|(_, head, unit)| (head, unit)).to_vec(),
         metrics: descriptions(),
+        viewer_json: viewer::contents(&scenes),
+        size_note: viewer::note(factor),
         scenes,
-        viewer_json,
-        size_note,
         study,
-    };
-    Ok((page, images))
+    })
 }
 
 /// Methods in order of first appearance: their place is their style.
@@ -88,7 +95,6 @@ fn scene_view(
     study: &Study,
     numbers: &Numbers,
     styles: &[String],
-    images: &SceneImages,
 ) -> SceneView {
     let runs = methods_of(study, &entry.name);
     let mut methods: Vec<MethodView> = runs
@@ -96,20 +102,15 @@ fn scene_view(
         .map(|run| method_view(run, display_name(study, run), numbers, study, styles))
         .collect();
     mark_best(&mut methods, &runs, numbers, study);
-    for (method, picture) in methods.iter_mut().zip(&images.methods) {
-        method.pictures = picture.as_ref().map(|image| image.pictures(images.ev));
-    }
     let reference_run =
         study.runs.iter().find(|run| run.scene == entry.name && run.method == REFERENCE);
     SceneView {
         entry: entry.clone(),
         index,
-        ev: images.ev,
-        reference: images.reference_picture(),
         reference_facts: reference_run.map(facts).unwrap_or_default(),
         plots: scene_plots::plots(entry, study, &runs, numbers, styles),
         methods,
-        data: None,
+        ..SceneView::default()
     }
 }
 

@@ -1,9 +1,9 @@
 //! What a report shows, ready for its templates: text and numbers, no logic.
 
 use super::number;
-use super::picture::Picture;
 use crate::results::{NotDone, SceneEntry, Study};
 use askama::Template;
+use std::path::PathBuf;
 
 /// One value in a table.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -44,7 +44,7 @@ pub(super) struct MethodView {
     /// Parameters, `name = value`.
     pub(super) parameters: Vec<String>,
     /// Pictures, where the image file exists.
-    pub(super) pictures: Option<MethodPictures>,
+    pub(super) pictures: Option<MethodPictures<Shown>>,
 }
 
 impl MethodView {
@@ -54,15 +54,24 @@ impl MethodView {
     }
 }
 
-/// Pictures of one method in one scene.
+/// A picture inside the page.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Shown {
+    /// Width and height, pixels.
+    pub(super) size_px: [usize; 2],
+    /// PNG as a `data:` address.
+    pub(super) data_uri: String,
+}
+
+/// Pictures of one method in one scene, in some form.
 #[derive(Clone, Debug)]
-pub(super) struct MethodPictures {
+pub(super) struct MethodPictures<T> {
     /// Radiance at the scene's exposure.
-    pub(super) image: Picture,
+    pub(super) image: T,
     /// FLIP map.
-    pub(super) flip: Option<Picture>,
+    pub(super) flip: Option<T>,
     /// Exit-angle errors.
-    pub(super) angle: Option<Picture>,
+    pub(super) angle: Option<T>,
 }
 
 /// One scene.
@@ -75,7 +84,7 @@ pub(super) struct SceneView {
     /// Exposure of its pictures, stops.
     pub(super) ev: f64,
     /// Exact picture.
-    pub(super) reference: Option<Picture>,
+    pub(super) reference: Option<Shown>,
     /// How the exact picture was made, `name = value`.
     pub(super) reference_facts: Vec<String>,
     /// Methods.
@@ -84,6 +93,8 @@ pub(super) struct SceneView {
     pub(super) plots: Vec<(String, String)>,
     /// HDR data of the viewer.
     pub(super) data: Option<SceneData>,
+    /// Files of pictures and plots that were written.
+    pub(super) files: Vec<PathBuf>,
 }
 
 /// HDR data of one scene for the viewer.

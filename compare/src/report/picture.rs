@@ -74,7 +74,7 @@ impl Picture {
         let mut bytes = Vec::new();
         let encoder = png::PngEncoder::new_with_quality(
             &mut bytes,
-            png::CompressionType::Best,
+            png::CompressionType::Default,
             png::FilterType::Adaptive,
         );
         let [width, height] = self.size_px.map(|side| side as u32);
@@ -86,12 +86,6 @@ impl Picture {
             image::ExtendedColorType::Rgb8,
         );
         bytes
-    }
-
-    /// The picture as a `data:` address.
-    #[must_use]
-    pub fn data_uri(&self) -> String {
-        format!("data:image/png;base64,{}", super::block::base64(&self.png()))
     }
 }
 

@@ -3,6 +3,7 @@
 use super::ReportError;
 use super::assemble::methods_of;
 use super::colour_map;
+use super::files::ScenePictures;
 use super::page::MethodPictures;
 use super::picture::Picture;
 use crate::image_pair::read_image;
@@ -10,9 +11,6 @@ use crate::metric::{Exposures, exit_angle, flip};
 use crate::results::{REFERENCE, Run, SceneEntry, Study};
 use scenes::{LayerName, Layers};
 use std::path::Path;
-
-/// Widest picture in the page, pixels: larger ones are shrunk there.
-const SHOWN_WIDTH_PX: usize = 320;
 
 /// The exact image and each method's, in the order of the study.
 pub(super) struct SceneImages {
@@ -66,15 +64,11 @@ impl SceneImages {
         Ok(images)
     }
 
-    /// The exact image as it is shown in the page.
-    pub(super) fn reference_picture(&self) -> Option<Picture> {
-        self.full_reference().map(|picture| picture.shrunk_to(SHOWN_WIDTH_PX))
-    }
-
-    /// The exact image in full size.
-    pub(super) fn full_reference(&self) -> Option<Picture> {
-        let radiance = self.reference.as_ref()?;
-        Some(Picture::of_radiance(radiance, self.size_px, self.ev))
+    /// All pictures in full size; none without an exact image.
+    pub(super) fn pictures(&self) -> Option<ScenePictures> {
+        let exact = Picture::of_radiance(self.reference.as_ref()?, self.size_px, self.ev);
+        let methods = self.methods.iter().map(|image| image.as_ref().map(|i| i.pictures(self.ev)));
+        Some(ScenePictures { exact, methods: methods.collect() })
     }
 }
 
@@ -98,19 +92,8 @@ impl MethodImage {
         Some(Self { size_px, radiance, flip, angle_deg })
     }
 
-    /// Its pictures as they are shown in the page.
-    pub(super) fn pictures(&self, ev: f64) -> MethodPictures {
-        let full = self.full_pictures(ev);
-        let small = |picture: Picture| picture.shrunk_to(SHOWN_WIDTH_PX);
-        MethodPictures {
-            image: small(full.image),
-            flip: full.flip.map(small),
-            angle: full.angle.map(small),
-        }
-    }
-
     /// Its pictures in full size.
-    pub(super) fn full_pictures(&self, ev: f64) -> MethodPictures {
+    fn pictures(&self, ev: f64) -> MethodPictures<Picture> {
         MethodPictures {
             image: Picture::of_radiance(&self.radiance, self.size_px, ev),
             flip: self.flip.as_ref().map(|map| Picture::of_flip(map, self.size_px)),

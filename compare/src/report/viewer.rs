@@ -1,9 +1,10 @@
 //! HDR data for the viewer in the page, within a budget.
 
-use super::assemble::COLUMNS;
+use super::assemble::{COLUMNS, methods_of};
 use super::page::{ImageData, SceneData, SceneView};
 use super::scene_images::SceneImages;
 use super::{block, colour_map};
+use crate::results::Study;
 use serde_json::json;
 
 /// What the data may take in the page before pictures are shrunk, bytes.
@@ -11,17 +12,38 @@ const BUDGET_BYTES: f64 = 40e6;
 /// Base64 bytes per half float, as measured on glass under a sky.
 const BYTES_PER_VALUE: f64 = 1.6;
 
-/// Gives each scene its data; returns the viewer's table of contents, safe
-/// inside a script element, and what was done to keep the page small.
-pub(super) fn fill(scenes: &mut [SceneView], images: &[SceneImages]) -> (String, String) {
-    let values: usize = images.iter().map(values_of).sum();
-    let wanted = values as f64 * BYTES_PER_VALUE / BUDGET_BYTES;
-    let factor = wanted.sqrt().ceil().max(1.0) as usize;
-    let mut contents = Vec::new();
-    for (view, images) in scenes.iter_mut().zip(images) {
-        let Some(data) = data(view, images, factor) else { continue };
+/// By how much pictures are shrunk in both directions, so that the data of
+/// the whole study stay within the budget.
+pub(super) fn shrinking(study: &Study) -> usize {
+    let values: u64 = study
+        .scenes
+        .iter()
+        .map(|scene| {
+            let [width, height] = scene.resolution_px.map(u64::from);
+            // Three channels of radiance, one of FLIP, one of the angle.
+            width * height * (3 + 5 * methods_of(study, &scene.name).len() as u64)
+        })
+        .sum();
+    (values as f64 * BYTES_PER_VALUE / BUDGET_BYTES).sqrt().ceil().max(1.0) as usize
+}
+
+/// What was done to keep the page small; empty if nothing.
+pub(super) fn note(factor: usize) -> String {
+    if factor == 1 {
+        return String::new();
+    }
+    format!(
+        "To keep this file small, the viewer holds means of {factor}x{factor} pixels; the EXR \
+         files beside this page hold them all."
+    )
+}
+
+/// The viewer's table of contents as JSON that is safe inside a script
+/// element; empty when there is nothing to view.
+pub(super) fn contents(scenes: &[SceneView]) -> String {
+    let entry = |(view, data): (&SceneView, &SceneData)| {
         let names: Vec<&str> = data.images.iter().map(|image| image.name.as_str()).collect();
-        contents.push(json!({
+        json!({
             "index": view.index,
             "name": view.entry.name,
             "width": data.size_px[0],
@@ -31,22 +53,15 @@ pub(super) fn fill(scenes: &mut [SceneView], images: &[SceneImages]) -> (String,
             "facts": facts(view, &names),
             // The image beside the exact one at first: the best by exit angle.
             "best": best(view, &names),
-        }));
-        view.data = Some(data);
-    }
-    if contents.is_empty() {
-        return (String::new(), String::new());
-    }
-    let text = json!({ "scenes": contents, "ramps": ramps() }).to_string();
-    let safe = text.replace('<', "\\u003c").replace('>', "\\u003e").replace('&', "\\u0026");
-    let note = if factor > 1 {
-        format!(
-            "To keep this file small, it holds every {factor}th pixel's mean; the EXR files hold all."
-        )
-    } else {
-        String::new()
+        })
     };
-    (safe, note)
+    let list: Vec<_> =
+        scenes.iter().filter_map(|view| Some((view, view.data.as_ref()?))).map(entry).collect();
+    if list.is_empty() {
+        return String::new();
+    }
+    let text = json!({ "scenes": list, "ramps": ramps() }).to_string();
+    text.replace('<', "\\u003c").replace('>', "\\u003e").replace('&', "\\u0026")
 }
 
 /// Place of the best method among the images; the last one if none is best.
@@ -81,15 +96,8 @@ fn ramps() -> String {
     block::base64(&bytes)
 }
 
-fn values_of(images: &SceneImages) -> usize {
-    let pixels = images.size_px[0] * images.size_px[1];
-    let methods = images.methods.iter().flatten();
-    let channels =
-        methods.map(|m| 3 + usize::from(m.flip.is_some()) + usize::from(m.angle_deg.is_some()));
-    pixels * (3 + channels.sum::<usize>())
-}
-
-fn data(view: &SceneView, images: &SceneImages, factor: usize) -> Option<SceneData> {
+/// HDR data of a scene, shrunk by a factor.
+pub(super) fn data(view: &SceneView, images: &SceneImages, factor: usize) -> Option<SceneData> {
     let reference = images.reference.as_ref()?;
     let [width, height] = images.size_px;
     let size_px = [width.div_ceil(factor), height.div_ceil(factor)];
