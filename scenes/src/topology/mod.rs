@@ -1,0 +1,15 @@
+//! Whether a mesh bounds a solid: edges, orientation, volume, genus.
+
+mod convex;
+pub(crate) mod edges;
+mod orient;
+mod report;
+mod weld;
+
+pub use convex::is_convex;
+pub use orient::{NotOrientable, orient_outward};
+pub use report::{NotSolid, Report, boundary_loops, inspect, signed_volume};
+pub use weld::{Removed, clean, weld};
+
+#[cfg(test)]
+mod tests;
