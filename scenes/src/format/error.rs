@@ -67,7 +67,7 @@ pub enum Error {
 }
 
 /// Why a mesh could not be read.
-pub type MeshError = crate::format::mesh::MeshError;
+pub type MeshError = crate::obj::ObjError;
 
 /// What is wrong with a part of a scene file.
 #[derive(Debug, thiserror::Error)]

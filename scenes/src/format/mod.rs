@@ -7,7 +7,6 @@
 mod choice;
 mod document;
 mod error;
-mod mesh;
 mod number;
 mod resolve;
 mod sky;

@@ -103,7 +103,12 @@ fn names_that_do_not_exist_are_errors() {
     refuses("eta = 1.5", "material = \"icy\"", "10:12", &["\"icy\"", "one of vacuum, air"]);
     let sphere = "{ sphere = { radius_m = 1.0 } }";
     refuses(sphere, "\"lens\"", "12:9", &["no shape is called \"lens\"", "[shape.lens]"]);
-    refuses(sphere, "{ builtin = \"lens\" }", "12:21", &["no built-in shape", "\"lens\""]);
+    refuses(
+        sphere,
+        "{ builtin = \"rabbit\" }",
+        "12:21",
+        &["no built-in shape", "\"rabbit\"", "teapot"],
+    );
     refuses(sphere, "{ obj = \"no.obj\" }", "12:17", &["no.obj"]);
     let map = "map = \"no.exr\"";
     refuses("radiance = [1.0, 1.0, 1.0]", map, "8:7", &["cannot read no.exr"]);

@@ -3,9 +3,8 @@
 use super::super::choice::NameOr;
 use super::super::document::{Document, ShapeText};
 use super::super::error::{At, Problem};
-use super::super::mesh;
 use super::{only_one, span_of};
-use crate::Shape;
+use crate::{Shape, generate};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -61,7 +60,7 @@ impl<'a> Shapes<'a> {
     fn unknown(&self, name: &str, shape: &Spanned<NameOr<ShapeText>>) -> At {
         let known = self.named.keys().cloned().collect::<Vec<_>>().join(", ");
         let known = if known.is_empty() { String::new() } else { format!("one of {known}, ") };
-        let builtin = match mesh::NAMES.contains(&name) {
+        let builtin = match generate::NAMES.iter().any(|(known, _)| *known == name) {
             true => format!(", or {{ builtin = \"{name}\" }}"),
             false => String::new(),
         };
@@ -105,7 +104,7 @@ impl<'a> Shapes<'a> {
         if let Some(shape) = self.made.get(&key) {
             return Ok(Arc::clone(shape));
         }
-        let mesh = mesh::read_obj(&self.base.join(path.get_ref()))
+        let mesh = crate::obj::read(&self.base.join(path.get_ref()))
             .map_err(|error| At { span: path.span(), problem: Problem::Mesh(error) })?;
         let shape = Arc::new(Shape::Mesh(mesh));
         self.made.insert(key, Arc::clone(&shape));
@@ -117,11 +116,12 @@ impl<'a> Shapes<'a> {
         if let Some(shape) = self.made.get(&key) {
             return Ok(Arc::clone(shape));
         }
-        let mesh = mesh::generate(name.get_ref()).ok_or_else(|| {
+        let mesh = generate::builtin(name.get_ref()).ok_or_else(|| {
+            let known: Vec<&str> = generate::NAMES.iter().map(|(name, _)| *name).collect();
             At::meaning(
                 name.span(),
                 format!("no built-in shape is called \"{}\"", name.get_ref()),
-                format!("write one of {}", mesh::NAMES.join(", ")),
+                format!("write one of {}", known.join(", ")),
             )
         })?;
         let shape = Arc::new(Shape::Mesh(mesh));
