@@ -2,11 +2,11 @@
 //! approximate images are closed forms.
 #![allow(clippy::unwrap_used, reason = "a test may stop at the first failure")]
 
-use compare::metric::{Candidate, Mask, Reference, Selection, judge};
+use compare::metric::{Candidate, Exposures, Mask, Reference, Selection, judge};
 use compare::report::{self, Report};
 use compare::results::{
-    NotDone, RESULT_SCHEMA, ResultRow, RowKind, Run, STUDY_SCHEMA, SceneEntry, Study, write_rows,
-    write_study,
+    FLIP_LAYER, NotDone, RESULT_SCHEMA, ResultRow, RowKind, Run, STUDY_SCHEMA, SceneEntry, Study,
+    write_rows, write_study,
 };
 use glam::DVec3;
 use scenes::rendering::{Pass, Time, TimeSource};
@@ -139,11 +139,19 @@ fn study(directory: &Path) {
         runs.push(reference);
         for (interfaces, method, cost) in [(0, "undeviated", 0.8), (1, "one-interface", 1.4)] {
             let candidate = ball(interfaces);
-            let own = run(scene, method, &format!("images/{place}/{method}.exr"));
+            let mut own = run(scene, method, &format!("images/{place}/{method}.exr"));
             write_exr(&directory.join(&own.image), &candidate);
             let mut selection = Selection::all(compare::metric::Encoding::Linear);
+            selection.flip_exposures = Some(Exposures { start: -4.0, stop: 2.0, count: 4 });
             selection.masks.push(Mask::Object);
             let judgement = judge(Reference(&exact), Candidate(&candidate), &selection).unwrap();
+            if place == 0 {
+                own.flip_map = own.image.with_extension("flip.exr");
+                let mut map = Layers::new([SIZE as u32; 2]);
+                let name = LayerName::Buffer(FLIP_LAYER.to_owned());
+                map.push(name, 1, judgement.flip_map.unwrap());
+                write_exr(&directory.join(&own.flip_map), &map);
+            }
             rows.push(time(&own, cost));
             rows.extend(judgement.measurements.iter().map(|m| m.row(&common(&own))));
             runs.push(own);
@@ -197,6 +205,15 @@ fn a_page_holds_tables_plots_and_pictures_and_needs_no_network() {
     assert!(html.contains("one-interface sends light in the best direction in 2 of 2 scenes"));
     assert!(html.contains("bunny.obj is not in target/assets"));
     assert!(html.contains("back normals") && html.contains("512 KiB"));
+    let picture = |name: &str| {
+        let path = report.html.with_file_name("pictures").join(name);
+        std::fs::read(path).unwrap()
+    };
+    assert_eq!(
+        picture("ball-one-interface-flip.png"),
+        picture("a____script_alert_1___script_-one-interface-flip.png"),
+        "a stored FLIP map and a computed one differ"
+    );
     for path in &report.pictures {
         assert!(std::fs::metadata(path).unwrap().len() > 100, "{}", path.display());
     }

@@ -22,6 +22,8 @@ pub const STUDY_SCHEMA: &str = "snell.study/1";
 pub const RESULTS_FILE: &str = "results.jsonl";
 /// Name of the study file in a results directory.
 pub const STUDY_FILE: &str = "study.json";
+/// Layer name of a stored FLIP map.
+pub const FLIP_LAYER: &str = "flip";
 /// Method name of rows that describe the exact renderer itself.
 pub const REFERENCE: &str = "reference";
 
@@ -169,6 +171,9 @@ pub struct Run {
     pub parameters: BTreeMap<String, String>,
     /// EXR with all layers, relative to the results directory.
     pub image: PathBuf,
+    /// EXR with the layer `flip` of this image against the reference, relative
+    /// to the results directory; empty if the report is to compute it.
+    pub flip_map: PathBuf,
     /// What was to run and what was left out.
     pub plan: Plan,
     /// What ran, recorded where it ran.

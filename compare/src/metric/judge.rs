@@ -11,6 +11,9 @@ pub struct Judgement {
     pub measurements: Vec<Measurement>,
     /// Metrics that the pair does not have or does not need, with the reason.
     pub left_out: Vec<NotDone>,
+    /// FLIP of each pixel, if FLIP was measured: it is the one metric that is
+    /// slow enough to keep for the report.
+    pub flip_map: Option<Vec<f64>>,
 }
 
 /// Why a pair cannot be judged at all.
@@ -63,6 +66,7 @@ pub fn judge(
         }
     }
     judgement.left_out.dedup();
+    judgement.flip_map = pair.flip_map();
     Ok(judgement)
 }
 

@@ -135,6 +135,11 @@ impl<'a> Pair<'a> {
         }
     }
 
+    /// The FLIP map, if some metric needed it.
+    pub(super) fn flip_map(self) -> Option<Vec<f64>> {
+        self.flip.into_inner()?.ok()
+    }
+
     /// Mean of the FLIP map, which is made once for all masks.
     fn flip(&self, sides: Sides, pixels: Option<&[usize]>) -> Answer {
         let map = self.flip.get_or_init(|| {

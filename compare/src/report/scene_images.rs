@@ -8,7 +8,7 @@ use super::page::MethodPictures;
 use super::picture::Picture;
 use crate::image_pair::read_image;
 use crate::metric::{Exposures, exit_angle, flip};
-use crate::results::{REFERENCE, Run, SceneEntry, Study};
+use crate::results::{FLIP_LAYER, REFERENCE, Run, SceneEntry, Study};
 use scenes::{LayerName, Layers};
 use std::path::Path;
 
@@ -56,9 +56,10 @@ impl SceneImages {
         };
         for run in methods_of(study, &entry.name) {
             let image = if has_image(run) { Some(layers(directory, run)?) } else { None };
+            let stored = stored_flip(directory, run)?;
             let measured = image
                 .zip(exact.as_ref())
-                .and_then(|(image, exact)| MethodImage::new(&image, exact, exposures));
+                .and_then(|(image, exact)| MethodImage::new(&image, exact, exposures, stored));
             images.methods.push(measured);
         }
         Ok(images)
@@ -73,7 +74,12 @@ impl SceneImages {
 }
 
 impl MethodImage {
-    fn new(image: &Layers, exact: &Layers, exposures: Option<Exposures>) -> Option<Self> {
+    fn new(
+        image: &Layers,
+        exact: &Layers,
+        exposures: Option<Exposures>,
+        stored_flip: Option<Vec<f64>>,
+    ) -> Option<Self> {
         if image.resolution_px != exact.resolution_px {
             return None;
         }
@@ -83,9 +89,11 @@ impl MethodImage {
         };
         let radiance = layer(image, LayerName::Radiance)?;
         let reference = layer(exact, LayerName::Radiance);
-        let flip = reference.zip(exposures).and_then(|(reference, exposures)| {
+        let measure = || {
+            let (reference, exposures) = reference.zip(exposures)?;
             flip::hdr_flip_map(&reference, &radiance, size_px, exposures).ok()
-        });
+        };
+        let flip = stored_flip.filter(|map| map.len() == image.pixels()).or_else(measure);
         let angle_deg = layer(exact, LayerName::Exit)
             .zip(layer(image, LayerName::Exit))
             .map(|(r, t)| exit_angle::exit_angle_map_deg(&r, &t));
@@ -108,4 +116,14 @@ fn has_image(run: &Run) -> bool {
 
 fn layers(directory: &Path, run: &Run) -> Result<Layers, ReportError> {
     Ok(read_image(&directory.join(&run.image))?.layers)
+}
+
+/// The FLIP map that the study kept, if it did.
+fn stored_flip(directory: &Path, run: &Run) -> Result<Option<Vec<f64>>, ReportError> {
+    if run.flip_map.as_os_str().is_empty() {
+        return Ok(None);
+    }
+    let mut layers = read_image(&directory.join(&run.flip_map))?.layers;
+    layers.list.retain(|layer| layer.name == LayerName::Buffer(FLIP_LAYER.to_owned()));
+    Ok(layers.list.pop().map(|layer| layer.data))
 }
