@@ -330,6 +330,28 @@ fn a_noisy_reference_is_corrected_as_numpy_does_and_covers_the_truth() {
     close("dual", dual, &expected["mse_dual_buffer"], 1e-9);
 }
 
+/// Two candidates against the same noisy reference: the difference of their
+/// errors is known far better than either error.
+#[test]
+fn a_paired_difference_holds_the_truth_in_a_narrow_interval() {
+    let method = read("mc_stack/method.exr");
+    let truth = read("mc_stack/truth.exr");
+    let images: Vec<Image> = (0..16).map(|k| read(&format!("mc_stack/ref_{k:02}.exr"))).collect();
+    let batches: Vec<&[f64]> = images.iter().map(colours).collect();
+    let (base, truth) = (colours(&method), colours(&truth));
+    let head: Vec<f64> = base.iter().map(|value| 1.01 * value).collect();
+    let found = stack::paired_difference(&batches, &head, base, None).unwrap();
+    let exact = error::mse(truth, &head) - error::mse(truth, base);
+    assert!(found.interval.0 < exact && exact < found.interval.1, "{found:?} misses {exact}");
+    let apart = stack::corrected_mse(&batches, base, None).unwrap().standard_error;
+    assert!(found.standard_error < apart / 2.0, "{found:?} is no better than {apart}");
+    // Negative control: equal images do not differ, and the other sign is refused.
+    let none = stack::paired_difference(&batches, base, base, None).unwrap();
+    assert_eq!((none.value, none.standard_error), (0.0, 0.0));
+    let swapped = stack::paired_difference(&batches, base, &head, None).unwrap();
+    assert_eq!(swapped.value, -found.value);
+}
+
 /// A mean with its variance says the same as the batches it is made of.
 #[test]
 fn a_variance_layer_corrects_as_the_batches_do() {
