@@ -1,1 +1,28 @@
-//! The approximations.
+//! The approximations: published image-space refraction on wgpu.
+//!
+//! Start with `frame.rs`. A method is one WGSL file and one row of
+//! [`method::METHODS`]; passes, buffers and bindings follow from what the WGSL
+//! reads. This crate knows nothing of the exact renderer, and only this crate
+//! knows wgpu.
+
+mod composition;
+mod error;
+mod frame;
+mod geometry;
+mod gpu;
+pub mod method;
+mod plan;
+mod readback;
+mod recorder;
+mod render;
+mod resources;
+mod thickness;
+mod uniforms;
+mod wgsl;
+
+pub use composition::Filter;
+pub use error::Error;
+pub use gpu::{AdapterInfo, Gpu, adapters};
+pub use method::{METHODS, Method};
+pub use plan::plan;
+pub use render::{Request, Timing, render};

@@ -30,8 +30,6 @@ mod trapped;
 mod traverse;
 mod tree;
 mod triangle;
-#[cfg(test)]
-mod watertight;
 mod world;
 
 pub use error::Error;

@@ -1,0 +1,87 @@
+//! What can go wrong, and what to do about it.
+
+/// Why an image could not be rendered.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// No adapter at all.
+    #[error(
+        "no GPU adapter was found\ninstall a Vulkan driver; without a GPU, Mesa's software driver \
+         will do: on Debian and Ubuntu `apt-get install mesa-vulkan-drivers libvulkan1`"
+    )]
+    NoAdapter,
+    /// No adapter of that name or number.
+    #[error("no adapter is called \"{wanted}\"; there are: {available}")]
+    UnknownAdapter {
+        /// As given.
+        wanted: String,
+        /// What there is, numbered.
+        available: String,
+    },
+    /// The adapter refused to open.
+    #[error("adapter {adapter} cannot be opened: {reason}")]
+    Open {
+        /// Name.
+        adapter: String,
+        /// What the driver said.
+        reason: String,
+    },
+    /// No method of that name.
+    #[error("there is no method \"{wanted}\"; there are: {available}")]
+    UnknownMethod {
+        /// As given.
+        wanted: String,
+        /// Ids of all methods.
+        available: String,
+    },
+    /// A parameter that the method does not have, or a value out of its range.
+    #[error("method {method}: {what}")]
+    Parameter {
+        /// Id of the method.
+        method: String,
+        /// What is wrong and what to write instead.
+        what: String,
+    },
+    /// A layer that the method does not write.
+    #[error("method {method} has no layer \"{layer}\"; it has: {available}")]
+    UnknownLayer {
+        /// Id of the method.
+        method: String,
+        /// As given.
+        layer: String,
+        /// What there is.
+        available: String,
+    },
+    /// Something larger than the adapter allows.
+    #[error("{what} needs {needed}, adapter {adapter} allows {allowed}; {advice}")]
+    Limit {
+        /// What is too large.
+        what: String,
+        /// Size asked for.
+        needed: u64,
+        /// Name.
+        adapter: String,
+        /// Size allowed.
+        allowed: u64,
+        /// What to change.
+        advice: String,
+    },
+    /// WGSL that does not compile, with the place in the file it came from.
+    #[error("{0}")]
+    Shader(String),
+    /// The driver reported an error, or the device was lost, during a pass.
+    #[error("adapter {adapter}: {what}")]
+    Device {
+        /// Name.
+        adapter: String,
+        /// What the driver said.
+        what: String,
+    },
+    /// The scene has something that is valid and not rendered yet.
+    #[error("{what} is not rendered by method {method} yet")]
+    NotYet {
+        /// Part of the scene.
+        what: String,
+        /// Id of the method.
+        method: String,
+    },
+}

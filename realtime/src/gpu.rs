@@ -1,0 +1,146 @@
+//! Adapters and devices: finding one, opening it, and saying which it is.
+
+use crate::Error;
+use serde::{Deserialize, Serialize};
+use std::future::Future;
+use std::pin::pin;
+use std::task::{Context, Poll, Waker};
+
+/// One adapter as wgpu lists it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct AdapterInfo {
+    /// Position in the list; what `--adapter` takes.
+    pub index: usize,
+    /// The driver's name for it.
+    pub name: String,
+    /// Vulkan, Metal, Dx12.
+    pub backend: String,
+    /// Driver and version.
+    pub driver: String,
+    /// True when the adapter is a CPU in disguise.
+    pub software: bool,
+}
+
+/// An opened adapter.
+pub struct Gpu {
+    pub(crate) device: wgpu::Device,
+    pub(crate) queue: wgpu::Queue,
+    pub(crate) timestamps: bool,
+    info: AdapterInfo,
+}
+
+/// What can be used here, in wgpu's order.
+#[must_use]
+pub fn adapters() -> Vec<AdapterInfo> {
+    enumerate().iter().enumerate().map(|(index, adapter)| describe(index, adapter)).collect()
+}
+
+impl Gpu {
+    /// Opens an adapter by number, by a part of its name, or the first hardware
+    /// one (the first of all if there is no hardware).
+    ///
+    /// # Errors
+    /// If there is no such adapter or it does not open.
+    pub fn open(choice: Option<&str>) -> Result<Self, Error> {
+        let found = enumerate();
+        let infos: Vec<_> = found.iter().enumerate().map(|(i, a)| describe(i, a)).collect();
+        let chosen = match choice {
+            None => infos.iter().find(|info| !info.software).or(infos.first()),
+            Some(wanted) => infos.iter().find(|info| {
+                wanted.parse() == Ok(info.index)
+                    || info.name.to_lowercase().contains(&wanted.to_lowercase())
+            }),
+        };
+        let info = match (chosen, choice) {
+            (Some(info), _) => info.clone(),
+            (None, Some(wanted)) if !infos.is_empty() => {
+                let names: Vec<_> =
+                    infos.iter().map(|i| format!("{} {}", i.index, i.name)).collect();
+                return Err(Error::UnknownAdapter {
+                    wanted: wanted.to_owned(),
+                    available: names.join(", "),
+                });
+            }
+            (None, _) => return Err(Error::NoAdapter),
+        };
+        Self::open_adapter(&found[info.index], info)
+    }
+
+    fn open_adapter(adapter: &wgpu::Adapter, info: AdapterInfo) -> Result<Self, Error> {
+        let wanted = wgpu::Features::TIMESTAMP_QUERY
+            | wgpu::Features::FLOAT32_FILTERABLE
+            | wgpu::Features::FLOAT32_BLENDABLE
+            | wgpu::Features::SHADER_INT64
+            | wgpu::Features::SHADER_INT64_ATOMIC_ALL_OPS;
+        let features = adapter.features() & wanted;
+        let descriptor = wgpu::DeviceDescriptor {
+            label: Some("snell"),
+            required_features: features,
+            required_limits: adapter.limits(),
+            ..Default::default()
+        };
+        let (device, queue) = block_on(adapter.request_device(&descriptor)).map_err(|error| {
+            Error::Open { adapter: info.name.clone(), reason: error.to_string() }
+        })?;
+        let timestamps = features.contains(wgpu::Features::TIMESTAMP_QUERY);
+        Ok(Self { device, queue, timestamps, info })
+    }
+
+    /// Which adapter this is.
+    #[must_use]
+    pub fn info(&self) -> &AdapterInfo {
+        &self.info
+    }
+
+    /// Runs `work` and turns any error the driver reports into ours.
+    pub(crate) fn scoped<T>(&self, work: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
+        let validation = self.device.push_error_scope(wgpu::ErrorFilter::Validation);
+        let memory = self.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
+        let result = work();
+        let reported = [block_on(memory.pop()), block_on(validation.pop())];
+        match reported.into_iter().flatten().next() {
+            Some(error) => Err(self.failed(&error)),
+            None => result,
+        }
+    }
+
+    /// Waits until the GPU has nothing left to do.
+    pub(crate) fn wait(&self) -> Result<(), Error> {
+        let waited = self.device.poll(wgpu::PollType::wait_indefinitely());
+        waited.map(|_| ()).map_err(|error| self.failed(&error))
+    }
+
+    pub(crate) fn failed(&self, error: &dyn std::fmt::Display) -> Error {
+        Error::Device { adapter: self.info.name.clone(), what: error.to_string() }
+    }
+}
+
+fn enumerate() -> Vec<wgpu::Adapter> {
+    let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
+    descriptor.backends = wgpu::Backends::PRIMARY;
+    let instance = wgpu::Instance::new(descriptor);
+    block_on(instance.enumerate_adapters(wgpu::Backends::PRIMARY))
+}
+
+fn describe(index: usize, adapter: &wgpu::Adapter) -> AdapterInfo {
+    let info = adapter.get_info();
+    AdapterInfo {
+        index,
+        name: info.name,
+        backend: format!("{:?}", info.backend),
+        driver: format!("{} {}", info.driver, info.driver_info).trim().to_owned(),
+        software: info.device_type == wgpu::DeviceType::Cpu,
+    }
+}
+
+/// wgpu's native futures are ready when polled or become so without a reactor.
+pub(crate) fn block_on<T>(future: impl Future<Output = T>) -> T {
+    let mut future = pin!(future);
+    let mut context = Context::from_waker(Waker::noop());
+    loop {
+        if let Poll::Ready(value) = future.as_mut().poll(&mut context) {
+            return value;
+        }
+        std::thread::yield_now();
+    }
+}

@@ -1,0 +1,200 @@
+//! The rows.
+
+use super::{Kind, Method, Parameter, Settings};
+use crate::Error;
+use crate::wgsl::Piece;
+
+const fn number(
+    name: &'static str,
+    default: f64,
+    min: f64,
+    max: f64,
+    unit: &'static str,
+    help: &'static str,
+) -> Parameter {
+    Parameter { name, kind: Kind::Number { default, min, max }, unit, help }
+}
+
+const fn choice(
+    name: &'static str,
+    words: &'static [&'static str],
+    help: &'static str,
+) -> Parameter {
+    Parameter { name, kind: Kind::Choice(words), unit: "", help }
+}
+
+const INDEX_SCALE: Parameter = choice(
+    "index",
+    &["own", "ball"],
+    "effective index m of the single interface: the medium's own n, or n/(2 - n), which sends a paraxial ray through a ball the right way",
+);
+
+/// Every method, simplest first.
+pub static METHODS: &[Method] = &[
+    Method {
+        id: "undeviated",
+        alias: "M0",
+        title: "no refraction",
+        about: "Light goes straight through. What every method must beat; exact for thin parallel plates.",
+        bibtex: "",
+        parameters: &[],
+        pieces: |_| Ok(vec![file!("undeviated.wgsl")]),
+    },
+    Method {
+        id: "dx7-vertex",
+        alias: "M1a",
+        title: "fake refraction, per vertex",
+        about: "The reflection formula with another factor, per vertex, interpolated without normalising. With the printed 1/n light bends the wrong way; triangles show.",
+        bibtex: DX7_BIBTEX,
+        parameters: &[DX7_FACTOR, INDEX_SCALE],
+        pieces: vertex_pieces,
+    },
+    Method {
+        id: "dx7",
+        alias: "M1b",
+        title: "fake refraction, per pixel",
+        about: "The same formula at every pixel. Bends the wrong way with the printed 1/n; no second interface, no parallax.",
+        bibtex: DX7_BIBTEX,
+        parameters: &[DX7_FACTOR, INDEX_SCALE],
+        pieces: |settings| {
+            Ok(vec![dx7_factor(settings), effective_index(settings), file!("dx7.wgsl")])
+        },
+    },
+    Method {
+        id: "one-interface",
+        alias: "M1c",
+        title: "Snell's law at the first surface",
+        about: "Exact at the first surface, nothing at the second: a slab turns light that it should only shift, a ball refracts half of what it should.",
+        bibtex: DX7_BIBTEX,
+        parameters: &[INDEX_SCALE],
+        pieces: |settings| Ok(vec![effective_index(settings), file!("one_interface.wgsl")]),
+    },
+    Method {
+        id: "one-interface-vertex",
+        alias: "M1d",
+        title: "Snell's law at the vertices",
+        about: "As one-interface, but bent at the vertices and interpolated: coarse triangles show.",
+        bibtex: DX7_BIBTEX,
+        parameters: &[INDEX_SCALE],
+        pieces: vertex_pieces,
+    },
+    Method {
+        id: "blended",
+        alias: "M2",
+        title: "blended front and back normals",
+        about: "One bend at a mixture of the front normal and the back normal seen through the same pixel. As printed it weakens refraction: good for ice cubes, wrong for lenses. No total reflection inside.",
+        bibtex: "@inproceedings{SeipelNivfors2006,\n  author = {Stefan Seipel and Anders Nivfors},\n  title = {Efficient Rendering of Multiple Refractions and Reflections in Natural Objects},\n  booktitle = {SIGRAD 2006},\n  year = {2006}\n}",
+        parameters: &[
+            number("a", 0.33, 0.0, 1.0, "", "weight of the back normal"),
+            choice("back_normal", &["outward", "inward"], "which way n_b points in eq. 1"),
+            choice(
+                "back_select",
+                &["farthest", "nearest"],
+                "which back face, where there are several",
+            ),
+            choice(
+                "normal",
+                &["normalised", "raw", "flip"],
+                "what is done to the mixture: made a unit vector, left as it is, or made one and turned to the eye",
+            ),
+            choice("fresnel", &["eq4", "schlick", "exact", "none"], "share of the reflection"),
+        ],
+        pieces: blended_pieces,
+    },
+    Method {
+        id: "two-interface",
+        alias: "M3",
+        title: "two interfaces in image space",
+        about: "Bends at the first surface, guesses the distance to the second from two known ones, and bends again at the back normal found there. A ring of clamped total reflection near a ball's limb; wrong surfaces on concave bodies.",
+        bibtex: "@inproceedings{Wyman2005,\n  author = {Chris Wyman},\n  title = {An Approximate Image-Space Approach for Interactive Refraction},\n  booktitle = {ACM SIGGRAPH 2005},\n  pages = {1050--1053},\n  year = {2005}\n}",
+        parameters: &[
+            choice(
+                "distance",
+                &["weighted", "view", "normal"],
+                "how far it is to the second surface: d_V and d_N weighted by the angles, or one of them alone",
+            ),
+            choice(
+                "back_select",
+                &["farthest", "nearest"],
+                "which back face, where there are several",
+            ),
+            choice("n2_filter", &["bilinear", "nearest"], "how the back normal is looked up"),
+            choice(
+                "fresnel",
+                &["none", "schlick", "exact"],
+                "share of the reflection; the paper has none",
+            ),
+        ],
+        pieces: two_interface_pieces,
+    },
+];
+
+const DX7_BIBTEX: &str = "@misc{FakeRefraction2000,\n  title = {Approximating Refraction: Fake Refraction in DX7},\n  year = {2000},\n  note = {cube maps indexed by R = (1 - a)(N.E)N - E}\n}";
+
+const DX7_FACTOR: Parameter =
+    choice("a", &["inverse", "direct"], "1/n as printed, or n, which bends towards the normal");
+
+macro_rules! file {
+    ($name:literal) => {
+        Piece::new($name, include_str!(concat!("../shaders/", $name)))
+    };
+}
+use file;
+
+fn effective_index(settings: &Settings) -> Piece {
+    let body = match settings.word("index") {
+        "ball" => "eta / max(2.0 - eta, 1e-3)",
+        _ => "eta",
+    };
+    Piece::new(
+        "effective index",
+        format!("fn effective_index(eta: f32) -> f32 {{ return {body}; }}\n"),
+    )
+}
+
+fn dx7_factor(settings: &Settings) -> Piece {
+    let a = if settings.word("a") == "direct" { "n" } else { "1.0 / n" };
+    Piece::new("dx7 factor", format!("fn dx7_a(n: f32) -> f32 {{ return {a}; }}\n"))
+}
+
+fn vertex_pieces(_: &Settings) -> Result<Vec<Piece>, Error> {
+    Ok(vec![file!("vertex_vector.wgsl")])
+}
+
+fn blended_pieces(settings: &Settings) -> Result<Vec<Piece>, Error> {
+    let a = settings.number("a");
+    if a == 0.0 {
+        return Ok(vec![file!("blend_one_sided.wgsl"), file!("blended.wgsl")]);
+    }
+    let sign = if settings.word("back_normal") == "inward" { -1.0 } else { 1.0 };
+    let finish = match settings.word("normal") {
+        "raw" => "mixed",
+        "flip" => "normalize(select(-mixed, mixed, dot(mixed, v_ws) < 0.0))",
+        _ => "normalize(mixed)",
+    };
+    let constants = format!(
+        "const BLEND_A: f32 = {a:?};\nconst BACK_SIGN: f32 = {sign:?};\n\
+         fn finish_normal(mixed: vec3f, v_ws: vec3f) -> vec3f {{ return {finish}; }}\n"
+    );
+    Ok(vec![
+        Piece::new("blend constants", constants),
+        file!("blend_two_sided.wgsl"),
+        file!("blended.wgsl"),
+    ])
+}
+
+fn two_interface_pieces(settings: &Settings) -> Result<Vec<Piece>, Error> {
+    let distance = match settings.word("distance") {
+        "view" => "d_view_m",
+        "normal" => "d_normal_m",
+        _ => "w * d_view_m + (1.0 - w) * d_normal_m",
+    };
+    let guess = format!(
+        "fn guessed_distance_m(w: f32, d_view_m: f32, d_normal_m: f32) -> f32 {{ return {distance}; }}\n"
+    );
+    let filter = match settings.word("n2_filter") {
+        "nearest" => file!("back_nearest.wgsl"),
+        _ => file!("back_bilinear.wgsl"),
+    };
+    Ok(vec![Piece::new("guessed distance", guess), filter, file!("two_interface.wgsl")])
+}

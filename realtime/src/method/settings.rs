@@ -1,0 +1,105 @@
+//! Parameters with their defaults filled in and their ranges checked.
+
+use super::{Kind, Method, Parameter};
+use crate::Error;
+use std::collections::BTreeMap;
+
+/// A parameter's value.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// A number.
+    Number(f64),
+    /// One of the parameter's words.
+    Word(&'static str),
+}
+
+/// All parameters of one method.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings(BTreeMap<&'static str, Value>);
+
+impl Settings {
+    /// Fills in defaults and checks what was given.
+    ///
+    /// # Errors
+    /// If a name is unknown, or a value is out of range.
+    pub fn new(method: &Method, given: &BTreeMap<String, String>) -> Result<Self, Error> {
+        let fail = |what: String| Err(Error::Parameter { method: method.id.to_owned(), what });
+        for name in given.keys() {
+            if !method.parameters.iter().any(|parameter| parameter.name == name) {
+                let known: Vec<_> = method.parameters.iter().map(|p| p.name).collect();
+                let known = if known.is_empty() { "none".to_owned() } else { known.join(", ") };
+                return fail(format!("there is no parameter \"{name}\"; there are: {known}"));
+            }
+        }
+        let mut settings = BTreeMap::new();
+        for parameter in method.parameters {
+            let value = match parameter.read(given.get(parameter.name).map(String::as_str)) {
+                Ok(value) => value,
+                Err(what) => return fail(what),
+            };
+            settings.insert(parameter.name, value);
+        }
+        Ok(Self(settings))
+    }
+
+    /// A number.
+    ///
+    /// # Panics
+    /// If the method has no such number: our mistake.
+    pub(crate) fn number(&self, name: &str) -> f64 {
+        match self.0.get(name) {
+            Some(Value::Number(value)) => *value,
+            other => panic!("parameter {name} is {other:?}, not a number"),
+        }
+    }
+
+    /// A word.
+    ///
+    /// # Panics
+    /// If the method has no such choice: our mistake.
+    pub(crate) fn word(&self, name: &str) -> &'static str {
+        match self.0.get(name) {
+            Some(Value::Word(value)) => value,
+            other => panic!("parameter {name} is {other:?}, not a choice"),
+        }
+    }
+
+    /// The word of a choice that only some methods have.
+    pub(crate) fn word_if_any(&self, name: &str) -> Option<&'static str> {
+        match self.0.get(name) {
+            Some(Value::Word(value)) => Some(value),
+            _ => None,
+        }
+    }
+
+    /// Every parameter as text, for provenance.
+    #[must_use]
+    pub fn describe(&self) -> BTreeMap<String, String> {
+        let text = |value: &Value| match value {
+            Value::Number(number) => number.to_string(),
+            Value::Word(word) => (*word).to_owned(),
+        };
+        self.0.iter().map(|(name, value)| ((*name).to_owned(), text(value))).collect()
+    }
+}
+
+impl Parameter {
+    fn read(&self, given: Option<&str>) -> Result<Value, String> {
+        match self.kind {
+            Kind::Number { default, min, max } => {
+                let Some(text) = given else { return Ok(Value::Number(default)) };
+                let number = text.parse::<f64>().ok().filter(|n| (min..=max).contains(n));
+                number.map(Value::Number).ok_or_else(|| {
+                    format!("{} = \"{text}\" is not a number from {min} to {max}", self.name)
+                })
+            }
+            Kind::Choice(words) => {
+                let Some(text) = given else { return Ok(Value::Word(words[0])) };
+                let word = words.iter().find(|word| **word == text);
+                word.map(|word| Value::Word(word)).ok_or_else(|| {
+                    format!("{} = \"{text}\" is none of: {}", self.name, words.join(", "))
+                })
+            }
+        }
+    }
+}

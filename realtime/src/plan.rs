@@ -1,0 +1,125 @@
+//! What will run for a scene, and what is left out and why: derived from the
+//! composition, before anything exists on a GPU.
+
+use crate::composition::{Composition, OUTPUTS};
+use crate::geometry::{Corner, Geometry};
+use crate::method::{Method, Settings};
+use crate::render::{self, Request};
+use crate::uniforms::{self, Bodies};
+use crate::{Error, Filter};
+use encase::ShaderType;
+use scenes::plan::{Buffer, Kind, Unsupported};
+use scenes::{Environment, Plan, Scene, Surface};
+
+/// What a method will do with a scene.
+///
+/// # Errors
+/// If the method, a parameter or a layer is unknown.
+pub fn plan(scene: &Scene, request: &Request) -> Result<Plan, Error> {
+    let method = Method::find(&request.method)?;
+    let settings = Settings::new(method, &request.parameters)?;
+    let geometry = Geometry::new(scene, request.view.frame)?;
+    let camera = render::camera(scene, request);
+    let outputs = render::outputs(method, request)?;
+    let composition =
+        Composition::new(method, &settings, scene, &camera, &geometry, request, outputs)?;
+    Ok(of(&composition, scene, &geometry, request))
+}
+
+/// The plan of a composition.
+pub(crate) fn of(
+    composition: &Composition,
+    scene: &Scene,
+    geometry: &Geometry,
+    request: &Request,
+) -> Plan {
+    let mut plan = Plan::default();
+    let k = request.view.positions_per_axis;
+    let [width, height] = request.view.resolution_px.map(|n| u64::from(n * k));
+    let pixels = width * height;
+    plan.passes.push("front".to_owned());
+    let mut add =
+        |name: &str, bytes: u64| plan.buffers.push(Buffer { name: name.to_owned(), bytes });
+    add("frame", uniforms::Frame::min_size().get());
+    add("bodies", Bodies::min_size().get());
+    match &scene.environment {
+        Environment::Uniform(_) => add("uniform_radiance", 16),
+        Environment::Map(map) => {
+            let border = 2 * u64::from(request.filter == Filter::Manual);
+            let edge = u64::from(map.cube.size_px) + border;
+            let name = if border == 2 { "environment_faces" } else { "environment_cube" };
+            add(name, 6 * edge * edge * 16);
+        }
+    }
+    for output in &composition.outputs {
+        add(output, pixels * 16);
+    }
+    if !geometry.corners.is_empty() {
+        add("corners", (geometry.corners.len() * size_of::<Corner>()) as u64);
+    }
+    for surfaces in [Some(&composition.front), composition.back.as_ref()].into_iter().flatten() {
+        for target in &surfaces.targets {
+            add(target.name, pixels * 4 * u64::from(target.channels));
+        }
+        add(&format!("{} depth test", surfaces.name), pixels * 4);
+        for _ in 0..geometry.formulas().len() {
+            add("analytic", uniforms::Analytic::min_size().get());
+        }
+    }
+    if composition.back.is_some() {
+        plan.passes.push("back".to_owned());
+    } else {
+        let bytes = pixels * (16 + 4);
+        plan.leave_out(Kind::Pass, "back", "the method does not read the surface behind", bytes);
+    }
+    plan.passes.push("shade".to_owned());
+    leave_out(&mut plan, composition, scene, geometry, pixels);
+    let opaque =
+        scene.objects.iter().any(|object| !matches!(object.surface, Surface::Dielectric { .. }));
+    if opaque {
+        plan.unsupported.push(Unsupported {
+            what: "opaque objects".to_owned(),
+            instead: "only the environment is seen through and around the bodies".to_owned(),
+        });
+    }
+    plan
+}
+
+fn leave_out(
+    plan: &mut Plan,
+    composition: &Composition,
+    scene: &Scene,
+    geometry: &Geometry,
+    pixels: u64,
+) {
+    if let Environment::Uniform(_) = scene.environment {
+        plan.leave_out(
+            Kind::Buffer,
+            "environment cube",
+            "the environment is uniform",
+            6 * 256 * 256 * 16,
+        );
+    }
+    if !geometry.absorbs {
+        plan.leave_out(Kind::Code, "absorption", "no medium absorbs", 0);
+    }
+    if !geometry.smooth {
+        plan.leave_out(
+            Kind::Buffer,
+            "front_geometric",
+            "normals are flat or analytic",
+            pixels * 16,
+        );
+    }
+    if geometry.corners.is_empty() {
+        plan.leave_out(Kind::Buffer, "corners", "every body is analytic", 0);
+    }
+    if geometry.formulas().is_empty() {
+        plan.leave_out(Kind::Code, "ray against analytic bodies", "every body is a mesh", 0);
+    }
+    for output in OUTPUTS {
+        if !composition.outputs.contains(&output) {
+            plan.leave_out(Kind::Buffer, output, "nobody asked for it", pixels * 16);
+        }
+    }
+}

@@ -1,0 +1,29 @@
+// Parallel rays. The twin of camera_perspective.wgsl.
+
+fn view_direction_ws(position_px: vec2f) -> vec3f {
+    return frame.forward_ws;
+}
+
+fn view_origin_lc(position_px: vec2f) -> vec3f {
+    let at = on_image_plane(position_px);
+    return frame.eye_lc + at.x * frame.right_ws + at.y * frame.up_ws;
+}
+
+fn direction_to_ws(p_lc: vec3f) -> vec3f {
+    return frame.forward_ws;
+}
+
+fn point_at_depth_lc(position_px: vec2f, depth_m: f32) -> vec3f {
+    return view_origin_lc(position_px) + depth_m * frame.forward_ws;
+}
+
+fn project_px(p_lc: vec3f) -> vec2f {
+    let from_eye = p_lc - frame.eye_lc;
+    let at = vec2f(dot(from_eye, frame.right_ws), dot(from_eye, frame.up_ws));
+    return (at / frame.half_extent * vec2f(0.5, -0.5) + 0.5) * frame.resolution_px;
+}
+
+// Edge of a pixel.
+fn footprint_m(depth_m: f32) -> f32 {
+    return 2.0 * frame.half_extent.y / frame.resolution_px.y;
+}

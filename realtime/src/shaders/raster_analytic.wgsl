@@ -1,0 +1,63 @@
+// Draws an analytic body: one triangle over the image, a ray per pixel, exact
+// to f32. Needs intersect() of one shape in object space.
+
+struct Analytic {
+    object_from_lc: mat4x4f,
+    lc_from_object: mat4x4f,
+    size_m: vec4f,              // meaning by shape
+    body: f32,
+    far_side: u32,              // 1: the surface where the ray leaves
+}
+
+@group(0) @binding(10) var<uniform> analytic: Analytic;
+
+struct Met {
+    hit: bool,
+    t_near: f32,
+    t_far: f32,
+    n_near: vec3f,              // outward, object space
+    n_far: vec3f,
+}
+
+struct Varyings {
+    p_lc: vec3f,
+    normal_ws: vec3f,
+    geometric_ws: vec3f,
+    body: f32,
+    thickness_m: f32,
+    vector_ws: vec3f,
+}
+
+@vertex
+fn analytic_vertex(@builtin(vertex_index) i: u32) -> @builtin(position) vec4f {
+    return vec4f(f32(i & 1u) * 4.0 - 1.0, f32(i >> 1u) * 4.0 - 1.0, 0.0, 1.0);
+}
+
+struct AnalyticTargets {
+    @builtin(frag_depth) depth: f32,
+ANALYTIC_FIELDS
+}
+
+@fragment
+fn analytic_fragment(@builtin(position) at: vec4f) -> AnalyticTargets {
+    let d_ws = view_direction_ws(at.xy);
+    let origin = (analytic.object_from_lc * vec4f(view_origin_lc(at.xy), 1.0)).xyz;
+    let along = (analytic.object_from_lc * vec4f(d_ws, 0.0)).xyz;
+    let scale = length(along);
+    let met = intersect(origin, along / scale);
+    let far_side = analytic.far_side == 1u;
+    let t = select(met.t_near, met.t_far, far_side);
+    if (!met.hit || t < 0.0) {
+        discard;
+    }
+    let p_object = origin + t * along / scale;
+    let p_lc = (analytic.lc_from_object * vec4f(p_object, 1.0)).xyz;
+    let n_object = select(met.n_near, met.n_far, far_side);
+    // Normals transform by the inverse transpose.
+    let normal_ws = normalize((transpose(analytic.object_from_lc) * vec4f(n_object, 0.0)).xyz);
+    let thickness_m = inward_m(p_object, n_object) / scale;
+    let vector_ws = vertex_vector(d_ws, normal_ws, u32(analytic.body + 0.5) - 1u);
+    let clip = frame.clip_from_lc * vec4f(p_lc, 1.0);
+    let out = targets(Varyings(p_lc, normal_ws, normal_ws, analytic.body, thickness_m, vector_ws));
+    return AnalyticTargets(clip.z / clip.w, ANALYTIC_VALUES);
+}

@@ -1,0 +1,40 @@
+// One pixel: what a method says of the surface in front, or the background.
+// A method is a file with
+//     fn trace(pixel: vec2i, v_ws: vec3f, surface: Surface) -> Trace
+// and what it reads is what will be drawn before it runs.
+
+struct Trace {
+    exit_ws: vec3f,             // unit direction in which the ray leaves
+    first_ws: vec3f,            // unit direction after the first interface
+    hit2_lc: vec3f,             // where it meets the second interface
+    path_m: f32,                // metres inside
+    events: u32,                // interfaces
+    flags: u32,
+}
+
+@compute @workgroup_size(8, 8)
+fn shade(@builtin(global_invocation_id) id: vec3u) {
+    let pixel = vec2i(id.xy);
+    if (!in_image(pixel)) {
+        return;
+    }
+    let v_ws = view_direction_ws(pixel_centre_px(pixel));
+    if (body_number(pixel) == 0u) {
+        put_radiance(pixel, vec4f(environment(v_ws), 0.0));
+        return;
+    }
+    let surface = front_surface(pixel, v_ws);
+    let traced = trace(pixel, v_ws, surface);
+    put_radiance(pixel, vec4f(composite(v_ws, surface, traced), 1.0));
+    put_exit(pixel, vec4f(traced.exit_ws, 1.0));
+    put_first(pixel, vec4f(traced.first_ws, 1.0));
+    put_hit2(pixel, vec4f(traced.hit2_lc, 1.0));
+    put_count(pixel, vec4f(f32(traced.events), f32(traced.flags | surface.flags), traced.path_m, 1.0));
+}
+
+// Reflection and refraction mixed, the refracted part dimmed on its way.
+fn composite(v_ws: vec3f, surface: Surface, traced: Trace) -> vec3f {
+    let share = reflected_share(v_ws, surface);
+    let through = environment(traced.exit_ws) * transmitted(traced.path_m, surface.body);
+    return mix(through, reflected_light(v_ws, surface, share), share);
+}

@@ -1,0 +1,128 @@
+//! WGSL is put together from pieces and read back with naga: which globals an
+//! entry point really uses decides which passes run, which memory exists and
+//! what is bound. Nothing about bindings is written in Rust.
+
+use crate::Error;
+use naga::valid::{Capabilities, ValidationFlags, Validator};
+
+/// One file of WGSL.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Piece {
+    /// Name for error messages.
+    pub(crate) name: String,
+    /// Text.
+    pub(crate) text: String,
+}
+
+impl Piece {
+    pub(crate) fn new(name: &str, text: impl Into<String>) -> Self {
+        Self { name: name.to_owned(), text: text.into() }
+    }
+}
+
+/// A shader put together, parsed and validated.
+pub(crate) struct Shader {
+    /// The joined text.
+    pub(crate) text: String,
+    module: naga::Module,
+    info: naga::valid::ModuleInfo,
+}
+
+/// A global that an entry point uses.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Used {
+    pub(crate) binding: u32,
+    pub(crate) name: String,
+}
+
+impl Shader {
+    /// Joins pieces in order and validates the whole.
+    pub(crate) fn link(pieces: &[Piece]) -> Result<Self, Error> {
+        let mut text = String::new();
+        for piece in pieces {
+            text.push_str(&piece.text);
+            text.push('\n');
+        }
+        let module = naga::front::wgsl::parse_str(&text).map_err(|error| {
+            let line = error.location(&text).map_or(1, |at| at.line_number);
+            Error::Shader(format!("{}: {}", place(pieces, line), error.message()))
+        })?;
+        let info = Validator::new(ValidationFlags::all(), Capabilities::all())
+            .validate(&module)
+            .map_err(|error| {
+                let line = error.location(&text).map_or(1, |at| at.line_number);
+                Error::Shader(format!("{}: {}", place(pieces, line), error.emit_to_string(&text)))
+            })?;
+        Ok(Self { text, module, info })
+    }
+
+    /// The bound globals that an entry point, or anything it calls, uses.
+    pub(crate) fn used(&self, entry_point: &str) -> Vec<Used> {
+        let entries = self.module.entry_points.iter();
+        let Some(index) = entries.clone().position(|entry| entry.name == entry_point) else {
+            return Vec::new();
+        };
+        let info = self.info.get_entry_point(index);
+        let mut used: Vec<Used> = self
+            .module
+            .global_variables
+            .iter()
+            .filter(|(handle, _)| !info[*handle].is_empty())
+            .filter_map(|(_, variable)| {
+                let binding = variable.binding.as_ref()?.binding;
+                Some(Used { binding, name: variable.name.clone()? })
+            })
+            .collect();
+        used.sort();
+        used
+    }
+
+    /// True if any of the entry points uses the global.
+    pub(crate) fn uses(&self, entry_points: &[&str], name: &str) -> bool {
+        entry_points.iter().any(|entry| self.used(entry).iter().any(|used| used.name == name))
+    }
+}
+
+/// File and line of a line of the joined text.
+fn place(pieces: &[Piece], mut line: u32) -> String {
+    for piece in pieces {
+        let lines = piece.text.lines().count().max(1) as u32;
+        let joined = lines + u32::from(piece.text.ends_with('\n'));
+        if line <= lines {
+            return format!("{}:{line}", piece.name);
+        }
+        line -= joined.min(line);
+    }
+    pieces.last().map_or_else(String::new, |piece| format!("{}: at its end", piece.name))
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a failing test may panic")]
+    use super::*;
+
+    const TEXT: &str = "@group(0) @binding(3) var<uniform> a: vec4f;
+@group(0) @binding(5) var<uniform> b: vec4f;
+fn read_b() -> vec4f { return b; }
+@compute @workgroup_size(1) fn with_b() { _ = a + read_b(); }
+@compute @workgroup_size(1) fn without_b() { _ = a; }
+";
+
+    #[test]
+    fn a_global_that_is_not_read_is_not_bound() {
+        let shader = Shader::link(&[Piece::new("test.wgsl", TEXT)]).unwrap();
+        assert!(shader.uses(&["with_b"], "b"));
+        assert!(!shader.uses(&["without_b"], "b"));
+        assert_eq!(shader.used("without_b"), [Used { binding: 3, name: "a".to_owned() }]);
+    }
+
+    #[test]
+    fn an_error_names_the_file_and_its_line() {
+        let pieces = [
+            Piece::new("good.wgsl", TEXT),
+            Piece::new("bad.wgsl", "\nfn f() -> f32 { return 1u; }\n"),
+        ];
+        let error = Shader::link(&pieces).err().unwrap().to_string();
+        assert!(error.starts_with("bad.wgsl:2:"), "{error}");
+    }
+}
