@@ -8,7 +8,6 @@ use compare::results::{
     FLIP_LAYER, NotDone, RESULT_SCHEMA, ResultRow, RowKind, Run, STUDY_SCHEMA, SceneEntry, Study,
     write_rows, write_study,
 };
-use exr::prelude as exr;
 use glam::DVec3;
 use scenes::rendering::{Pass, Time, TimeSource};
 use scenes::{LayerName, Layers, Plan};
@@ -68,23 +67,8 @@ fn ball(interfaces: u32) -> Layers {
 }
 
 fn write_exr(path: &Path, layers: &Layers) {
-    let mut channels = exr::SmallVec::new();
-    for (layer, names) in [
-        (LayerName::Radiance, &["R", "G", "B"][..]),
-        (LayerName::Exit, &["exit.X", "exit.Y", "exit.Z"]),
-        (LayerName::Coverage, &["coverage.Y"]),
-    ] {
-        let data = &layers.get(&layer).unwrap().data;
-        for (place, name) in names.iter().enumerate() {
-            let samples: Vec<f32> =
-                data.iter().skip(place).step_by(names.len()).map(|&v| v as f32).collect();
-            channels.push(exr::AnyChannel::new(*name, exr::FlatSamples::F32(samples)));
-        }
-    }
-    let size = (SIZE, SIZE);
-    let image = exr::Image::from_channels(size, exr::AnyChannels::sort(channels));
     std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-    exr::WritableImage::write(&image).to_file(path).unwrap();
+    scenes::image::write_exr(path, layers).unwrap();
 }
 
 fn run(scene: &str, method: &str, image: &str) -> Run {

@@ -3,9 +3,7 @@
 use crate::metric::{
     Candidate, Encoding, Exposures, Judgement, JudgementError, Mask, Reference, Selection, judge,
 };
-use exr::prelude as exr;
 use scenes::{LayerName, Layers};
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// An image file with what its values mean.
@@ -21,6 +19,9 @@ pub struct Image {
 #[derive(Debug, thiserror::Error)]
 pub enum ImagePairError {
     /// A file is missing, broken, or of no known kind.
+    #[error(transparent)]
+    Image(#[from] scenes::image::Error),
+    /// A PNG is missing or broken.
     #[error("{}: {reason}", path.display())]
     File {
         /// The file.
@@ -87,61 +88,25 @@ pub fn compare_files(
 /// # Errors
 /// When the file is missing, broken, or of another kind.
 pub fn read_image(path: &Path) -> Result<Image, ImagePairError> {
-    let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-    let result = match extension.as_str() {
-        "exr" => read_exr(path).map(|layers| Image { layers, encoding: Encoding::Linear }),
-        "hdr" => read_flat(path).map(|layers| Image { layers, encoding: Encoding::Linear }),
-        "png" => read_flat(path).map(|layers| Image { layers, encoding: Encoding::Display }),
-        _ => Err("an image to compare is an .exr, .hdr or .png file".to_owned()),
-    };
-    result.map_err(|reason| ImagePairError::File { path: path.to_owned(), reason })
+    let extension = path.extension().unwrap_or_default();
+    if extension.eq_ignore_ascii_case("png") {
+        let layers = read_code_values(path)
+            .map_err(|reason| ImagePairError::File { path: path.to_owned(), reason })?;
+        return Ok(Image { layers, encoding: Encoding::Display });
+    }
+    Ok(Image { layers: scenes::image::read(path)?, encoding: Encoding::Linear })
 }
 
-/// All layers of an EXR file with one part.
-fn read_exr(path: &Path) -> Result<Layers, String> {
-    let image = exr::read_first_flat_layer_from_file(path).map_err(|error| error.to_string())?;
-    let size = image.layer_data.size;
-    let mut groups: BTreeMap<String, Vec<(usize, Vec<f64>)>> = BTreeMap::new();
-    for channel in &image.layer_data.channel_data.list {
-        let name = channel.name.to_string();
-        let (group, component) = name.rsplit_once('.').unwrap_or(("radiance", &name));
-        let Some(place) = ["R", "G", "B", "X", "Y", "Z"].iter().position(|&c| c == component)
-        else {
-            continue;
-        };
-        let values = channel.sample_data.values_as_f32().map(f64::from).collect();
-        groups.entry(group.to_owned()).or_default().push((place, values));
-    }
-    let mut layers = Layers::new([size.0 as u32, size.1 as u32]);
-    for (name, mut channels) in groups {
-        channels.sort_by_key(|(place, _)| *place);
-        let count = channels.len();
-        if name == "radiance" && count != 3 {
-            return Err("it has no R, G and B channels".to_owned());
-        }
-        let data = (0..layers.pixels())
-            .flat_map(|pixel| channels.iter().map(move |(_, values)| values[pixel]))
-            .collect();
-        layers.push(LayerName::from(name.as_str()), count, data);
-    }
-    Ok(layers)
-}
-
-/// The colours of a PNG (code values / 255) or HDR file (radiance).
-fn read_flat(path: &Path) -> Result<Layers, String> {
+/// The code values of a PNG, 0..1, as they are: metrics of displayed images
+/// are defined on them, not on the light that they stand for.
+fn read_code_values(path: &Path) -> Result<Layers, String> {
     let image = image::open(path).map_err(|error| error.to_string())?;
     let mut layers = Layers::new([image.width(), image.height()]);
-    let data = match image {
-        image::DynamicImage::ImageRgb32F(_) | image::DynamicImage::ImageRgba32F(_) => {
-            image.into_rgb32f().into_raw().into_iter().map(f64::from).collect()
-        }
-        image::DynamicImage::ImageRgb16(_)
-        | image::DynamicImage::ImageRgba16(_)
-        | image::DynamicImage::ImageLuma16(_)
-        | image::DynamicImage::ImageLumaA16(_) => {
-            image.into_rgb16().into_raw().into_iter().map(|v| f64::from(v) / 65535.0).collect()
-        }
-        _ => image.into_rgb8().into_raw().into_iter().map(|v| f64::from(v) / 255.0).collect(),
+    let deep = image.color().bytes_per_pixel() / image.color().channel_count() > 1;
+    let data = if deep {
+        image.into_rgb16().into_raw().into_iter().map(|v| f64::from(v) / 65535.0).collect()
+    } else {
+        image.into_rgb8().into_raw().into_iter().map(|v| f64::from(v) / 255.0).collect()
     };
     layers.push(LayerName::Radiance, 3, data);
     Ok(layers)

@@ -30,6 +30,8 @@ mod trapped;
 mod traverse;
 mod tree;
 mod triangle;
+#[cfg(test)]
+mod watertight;
 mod world;
 
 pub use error::Error;
