@@ -3,6 +3,9 @@ CARGO ?= cargo
 # Anything for the study, for example: make study STUDY="ball --method blended"
 STUDY ?=
 
+# Mesa's device-selection layer would complain about a missing desktop session.
+export NODEVICE_SELECT = 1
+
 .PHONY: help setup study test test-all
 
 help:
@@ -15,7 +18,7 @@ setup:
 	@./setup.sh
 
 study: setup
-	$(CARGO) run --release -p snell -- study $(STUDY)
+	$(CARGO) run --release -p snell -- study --out target/study $(STUDY)
 
 test: setup
 	$(CARGO) test --release --workspace

@@ -69,3 +69,57 @@ fn a_word_that_is_no_command_ends_with_status_2_and_a_hint() {
     assert!(ran.message.contains("compare"), "{}", ran.message);
     assert_eq!(ran.answer, "");
 }
+
+#[test]
+fn built_in_scenes_are_listed_and_printed() {
+    let scenes = objects("scenes");
+    let names: Vec<&str> = scenes.iter().map(|scene| scene["name"].as_str().unwrap()).collect();
+    assert!(names.contains(&"ball") && names.contains(&"bunny"), "{names:?}");
+    let quick = scenes.iter().filter(|scene| scene["in_quick_study"] == true).count();
+    assert_eq!(quick, 4);
+    assert!(done("scenes ball").contains("[camera]"));
+}
+
+#[test]
+fn methods_tell_their_parameters_and_their_papers() {
+    let methods = objects("methods");
+    let blended = methods.iter().find(|method| method["id"] == "blended").unwrap();
+    assert_eq!(blended["alias"], "M2");
+    let parameters = blended["parameters"].as_array().unwrap();
+    assert!(parameters.iter().any(|parameter| parameter["name"] == "a"), "{parameters:?}");
+    for method in &methods {
+        for parameter in method["parameters"].as_array().unwrap() {
+            for key in ["default", "range", "help"] {
+                assert!(!parameter[key].as_str().unwrap().is_empty(), "{key} of {parameter}");
+            }
+        }
+    }
+    assert!(done("methods --bibtex").contains("@"));
+}
+
+#[test]
+fn some_adapter_is_seen() {
+    let adapters = objects("adapters");
+    assert!(adapters.iter().all(|adapter| !adapter["name"].as_str().unwrap().is_empty()));
+}
+
+#[test]
+fn a_plan_says_what_runs_and_what_is_left_out() {
+    for renderer in ["--reference", "--method undeviated"] {
+        let plan = &objects(&format!("plan uniform-ball {renderer}"))[0];
+        assert!(!plan["passes"].as_array().unwrap().is_empty(), "{plan}");
+        let left_out = plan["left_out"].as_array().unwrap();
+        assert!(left_out.iter().all(|left| left["reason"].as_str().is_some_and(|r| r.len() > 8)));
+        assert!(!left_out.is_empty(), "a uniform environment needs no lookup: {plan}");
+    }
+}
+
+/// The exact image of a lossless ball in uniform light 1 is 1 everywhere.
+#[test]
+fn the_reference_writes_an_image_that_can_be_compared() {
+    let folder = tempfile::tempdir().unwrap();
+    let image = folder.path().join("exact.exr").to_string_lossy().into_owned();
+    done(&format!("reference uniform-ball -o {image} --resolution 24 --positions 1 --cut 1e-8"));
+    let scores = objects(&format!("compare {image} {image}"));
+    assert_eq!(scores[0]["n"], 24 * 24);
+}

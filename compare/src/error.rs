@@ -1,6 +1,9 @@
 //! What can stop a command: where, what, and what to write instead.
 
 use crate::image_pair::ImagePairError;
+use crate::metric::JudgementError;
+use crate::report::ReportError;
+use crate::results::{NotDone, ResultsError};
 use std::path::{Path, PathBuf};
 
 /// Why a command could not do what it was asked. Exit status 2.
@@ -16,6 +19,33 @@ pub enum Error {
         /// The system's answer.
         source: std::io::Error,
     },
+    /// A scene that cannot be read.
+    #[error(transparent)]
+    Scene(#[from] scenes::Error),
+    /// An image file that cannot be read or written.
+    #[error(transparent)]
+    ImageFile(#[from] scenes::image::Error),
+    /// A scene that has no exact image.
+    #[error(transparent)]
+    Reference(#[from] reference::Error),
+    /// A scene that a method cannot show, or a GPU that cannot be used.
+    #[error(transparent)]
+    Realtime(#[from] realtime::Error),
+    /// Images that cannot be judged.
+    #[error(transparent)]
+    Judgement(#[from] JudgementError),
+    /// A results folder that cannot be read or written.
+    #[error(transparent)]
+    Results(#[from] ResultsError),
+    /// A report that cannot be made.
+    #[error(transparent)]
+    Report(#[from] ReportError),
+    /// A study in which no method could show any scene.
+    #[error("no method could show any of the scenes\n{}", reasons(.0))]
+    NothingDone(Vec<NotDone>),
+    /// An argument that makes no sense.
+    #[error("{0}")]
+    Argument(String),
     /// Image files that cannot be compared.
     #[error(transparent)]
     ImagePair(#[from] ImagePairError),
@@ -30,6 +60,11 @@ pub enum Error {
     /// Standard output is gone or full.
     #[error("the answer cannot be written to standard output: {0}")]
     Output(std::io::Error),
+}
+
+fn reasons(left_out: &[NotDone]) -> String {
+    let lines = left_out.iter().map(|NotDone { what, reason }| format!("{what}: {reason}"));
+    lines.collect::<Vec<_>>().join("\n")
 }
 
 impl Error {

@@ -4,6 +4,14 @@
 //! the scene and every file it refers to, and the sources of the renderer. The
 //! same id therefore means the same result, on any day and in any process.
 
+mod approximation;
+mod exact;
+mod made;
+
+pub use approximation::Approximation;
+pub use exact::{Exact, is_disjoint};
+pub use made::Made;
+
 use crate::cache::hex;
 use serde::Serialize;
 use sha2::{Digest, Sha256};

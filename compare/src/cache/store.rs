@@ -48,6 +48,12 @@ impl Store {
         &self.root
     }
 
+    /// True if there is a result, verified or not.
+    #[must_use]
+    pub fn has(&self, id: &Id) -> bool {
+        self.root.join(id.as_str()).exists()
+    }
+
     /// Looks a result up and verifies it.
     #[must_use]
     pub fn find(&self, id: &Id) -> Found {

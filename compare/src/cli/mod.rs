@@ -1,11 +1,23 @@
 //! The command line. Each command is a file here: its arguments, whose comments
 //! are the help, and `run`, which answers on standard output.
 
+mod adapter;
+mod adapters;
 mod compare;
+mod methods;
 mod output;
+mod own;
+mod plan;
+mod realtime;
+mod reference;
+mod report;
+mod scenes;
+mod study;
+mod view;
 
 use crate::Error;
 use crate::metric::Exposures;
+use ::scenes::Scene;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use output::Output;
 use std::io::Write;
@@ -26,13 +38,29 @@ struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    Scenes(scenes::Args),
+    Methods(methods::Args),
+    Adapters(adapters::Args),
+    Plan(plan::Args),
+    Reference(reference::Args),
+    Realtime(realtime::Args),
     Compare(compare::Args),
+    Study(study::Args),
+    Report(report::Args),
 }
 
 impl Command {
     fn run(&self, output: Output) -> Result<Status, Error> {
         match self {
+            Self::Scenes(args) => scenes::run(args, output),
+            Self::Methods(args) => methods::run(args, output),
+            Self::Adapters(args) => adapters::run(args, output),
+            Self::Plan(args) => plan::run(args, output),
+            Self::Reference(args) => reference::run(args, output),
+            Self::Realtime(args) => realtime::run(args, output),
             Self::Compare(args) => compare::run(args, output),
+            Self::Study(args) => study::run(args, output),
+            Self::Report(args) => report::run(args, output),
         }
     }
 }
@@ -83,4 +111,9 @@ fn exposures(text: &str) -> Result<Exposures, String> {
     let count = count.parse().ok().filter(|count| (2..=64).contains(count));
     let count = count.ok_or("COUNT is a whole number from 2 to 64")?;
     Ok(Exposures { start: stops(start)?, stop: stops(stop)?, count })
+}
+
+/// The scene of that name: built in, or a file.
+fn scene(name: &str) -> Result<Scene, Error> {
+    Ok(::scenes::find(name)?)
 }

@@ -26,10 +26,20 @@ impl Output {
         writeln!(io::stdout().lock(), "{text}").map_err(Error::Output)
     }
 
+    /// Tells people something that is not the answer.
+    pub(super) fn note(text: &str) {
+        // Nobody listens if standard error is closed.
+        let _ = writeln!(io::stderr().lock(), "{text}");
+    }
+
     /// Writes one JSON object on a line of its own.
     pub(super) fn object(self, schema: &str, object: &impl Serialize) -> Result<(), Error> {
-        let line = serde_json::to_string(&Line { schema, object })
-            .map_err(|error| Error::Output(error.into()))?;
+        self.own_object(&Line { schema, object })
+    }
+
+    /// Writes one JSON object that names its schema itself.
+    pub(super) fn own_object(self, object: &impl Serialize) -> Result<(), Error> {
+        let line = serde_json::to_string(object).map_err(|error| Error::Output(error.into()))?;
         self.line(&line)
     }
 }

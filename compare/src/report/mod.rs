@@ -45,7 +45,7 @@ pub enum ReportError {
 }
 
 /// Files of a report.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
 pub struct Report {
     /// The page, one file that opens by double click.
     pub html: PathBuf,

@@ -1,0 +1,102 @@
+//! `snell plan SCENE`: what will run, what is left out, and why.
+
+use super::output::{Output, table};
+use super::realtime::parameter;
+use super::{Status, scene};
+use crate::Error;
+use scenes::{LayerName, Plan, View};
+use serde::Serialize;
+
+/// List the passes and buffers that a scene needs, and what is left out and why
+#[derive(clap::Args, Debug)]
+#[command(group = clap::ArgGroup::new("renderer").required(true))]
+pub(super) struct Args {
+    /// Built-in name (see `snell scenes`) or scene file
+    scene: String,
+    /// Method to plan
+    #[arg(short, long, value_name = "METHOD", group = "renderer")]
+    method: Option<String>,
+    /// Parameter of the method, such as a=0.33; repeat for several
+    #[arg(short, long = "param", value_name = "NAME=VALUE", value_parser = parameter,
+        requires = "method")]
+    parameters: Vec<(String, String)>,
+    /// Plan the exact renderer
+    #[arg(long, group = "renderer")]
+    reference: bool,
+}
+
+/// The answer for programs.
+#[derive(Serialize)]
+struct Answer<'a> {
+    scene: &'a str,
+    renderer: String,
+    total_bytes: u64,
+    #[serde(flatten)]
+    plan: &'a Plan,
+}
+
+pub(super) fn run(args: &Args, output: Output) -> Result<Status, Error> {
+    let scene = scene(&args.scene)?;
+    let view = View {
+        resolution_px: scene.camera.resolution_px,
+        positions_per_axis: 4,
+        frame: 0,
+        layers: vec![LayerName::Radiance],
+    };
+    let (renderer, plan) = match &args.method {
+        Some(method) => {
+            let parameters = args.parameters.iter().cloned().collect();
+            let (filter, method) = (realtime::Filter::Manual, method.clone());
+            let request = realtime::Request { view, method, parameters, filter, timing: None };
+            (request.method.clone(), realtime::plan(&scene, &request)?)
+        }
+        None => {
+            let request = reference::Request::new(view, reference::Level::R1);
+            ("reference".to_owned(), reference::plan(&scene, &request)?)
+        }
+    };
+    if output.json {
+        let (scene, total_bytes) = (scene.name.as_str(), plan.bytes());
+        output.object("snell.plan/1", &Answer { scene, renderer, total_bytes, plan: &plan })?;
+    } else {
+        output.line(&text(&plan).join("\n"))?;
+    }
+    Ok(Status::Done)
+}
+
+fn text(plan: &Plan) -> Vec<String> {
+    let mut lines = vec!["passes, in order".to_owned()];
+    lines.extend(plan.passes.iter().map(|pass| format!("  {pass}")));
+    lines.push(format!("buffers, {} in all", bytes(plan.bytes())));
+    let buffers = plan.buffers.iter().map(|b| vec![format!("  {}", b.name), bytes(b.bytes)]);
+    lines.extend(table(&buffers.collect::<Vec<_>>()).lines().map(str::to_owned));
+    if !plan.features.is_empty() {
+        lines.push("specialised for".to_owned());
+        lines.extend(plan.features.iter().map(|feature| format!("  {feature}")));
+    }
+    lines.push("left out".to_owned());
+    for left in &plan.left_out {
+        let kind = format!("{:?}", left.kind).to_lowercase();
+        let saves = if left.saves_bytes == 0 {
+            String::new()
+        } else {
+            format!(" ({})", bytes(left.saves_bytes))
+        };
+        lines.push(format!("  {kind} {}{saves}: {}", left.what, left.reason));
+    }
+    if !plan.unsupported.is_empty() {
+        lines.push("not shown".to_owned());
+        lines.extend(plan.unsupported.iter().map(|u| format!("  {}: {}", u.what, u.instead)));
+    }
+    lines
+}
+
+/// A number of bytes in the unit that suits it.
+fn bytes(count: u64) -> String {
+    match count as f64 {
+        c if c < 1e3 => format!("{count} B"),
+        c if c < 1e6 => format!("{:.1} kB", c / 1e3),
+        c if c < 1e9 => format!("{:.1} MB", c / 1e6),
+        c => format!("{:.2} GB", c / 1e9),
+    }
+}

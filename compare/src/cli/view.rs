@@ -1,0 +1,153 @@
+//! Arguments that both renderers share, and the image that comes of them.
+
+use super::Status;
+use super::output::Output;
+use crate::report::colour_map;
+use crate::report::picture::Picture;
+use crate::{Error, file};
+use scenes::{LayerName, Layers, Rendering, Scene, View};
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+
+/// What is rendered, and where the image goes.
+#[derive(clap::Args, Debug)]
+pub(super) struct ViewArgs {
+    /// Image to write: .exr holds every layer, .png shows the radiance
+    #[arg(short, long, value_name = "FILE", value_parser = image_path)]
+    out: PathBuf,
+    /// Layers to compute, separated by commas [default: radiance]
+    #[arg(long, value_delimiter = ',', value_name = "LAYER")]
+    layers: Vec<String>,
+    /// Width x height in pixels, such as 640x360 [default: the scene's]
+    #[arg(long, value_name = "WxH", value_parser = resolution)]
+    resolution: Option<[u32; 2]>,
+    /// K: radiance is the mean over K x K positions in each pixel
+    #[arg(long, value_name = "K", default_value_t = 4,
+        value_parser = clap::value_parser!(u32).range(1..=64))]
+    positions: u32,
+    /// Frame of the scene's sequence; 0 is the still
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    frame: u32,
+    /// Exposure of a .png in stops [default: chosen from the image]
+    #[arg(long, value_name = "STOPS", allow_negative_numbers = true)]
+    exposure: Option<f64>,
+}
+
+/// What a rendering tells about itself.
+#[derive(Serialize)]
+struct Answer<'a> {
+    image: &'a Path,
+    resolution_px: [u32; 2],
+    passes: &'a [scenes::rendering::Pass],
+    counters: &'a std::collections::BTreeMap<String, u64>,
+    provenance: &'a scenes::rendering::Provenance,
+}
+
+impl ViewArgs {
+    /// The view that is asked for.
+    pub(super) fn view(&self, scene: &Scene) -> View {
+        let mut layers: Vec<LayerName> =
+            self.layers.iter().map(|name| LayerName::from(name.as_str())).collect();
+        if layers.is_empty() || (is_png(&self.out) && !layers.contains(&LayerName::Radiance)) {
+            layers.insert(0, LayerName::Radiance);
+        }
+        View {
+            resolution_px: self.resolution.unwrap_or(scene.camera.resolution_px),
+            positions_per_axis: self.positions,
+            frame: self.frame,
+            layers,
+        }
+    }
+
+    /// Writes the image and answers with what the rendering tells.
+    pub(super) fn finish(&self, rendering: &Rendering, output: Output) -> Result<Status, Error> {
+        let layers = &rendering.layers;
+        if is_png(&self.out) {
+            self.write_png(layers)?;
+        } else {
+            scenes::image::write_exr(&self.out, layers)?;
+        }
+        let answer = Answer {
+            image: &self.out,
+            resolution_px: layers.resolution_px,
+            passes: &rendering.passes,
+            counters: &rendering.counters,
+            provenance: &rendering.provenance,
+        };
+        if output.json {
+            output.object("snell.rendering/1", &answer)?;
+        } else {
+            output.line(&text(&answer))?;
+        }
+        Ok(Status::Done)
+    }
+
+    /// The radiance as the report shows it.
+    fn write_png(&self, layers: &Layers) -> Result<(), Error> {
+        let radiance = layers.get(&LayerName::Radiance).map_or(&[][..], |layer| &layer.data);
+        let ev = self.exposure.unwrap_or_else(|| colour_map::exposure(radiance));
+        let size_px = layers.resolution_px.map(|side| side as usize);
+        let png = Picture::of_radiance(radiance, size_px, ev).png();
+        file::replace(&self.out, |partial| {
+            std::fs::write(partial, png).map_err(Error::file(&self.out, "cannot be written"))
+        })
+    }
+}
+
+fn text(answer: &Answer) -> String {
+    let Answer { image, resolution_px: [width, height], passes, counters, provenance } = answer;
+    let mut lines = vec![format!(
+        "{}: {width} x {height}, {} on {}",
+        image.display(),
+        provenance.renderer,
+        provenance.adapter
+    )];
+    for pass in *passes {
+        let time = |t: &scenes::rendering::Time| format!("{:.2} ms {:?}", t.milliseconds, t.source);
+        let times: Vec<String> = pass.times.iter().map(time).collect();
+        lines.push(format!("  {}: {}", pass.name, times.join(", ").to_lowercase()));
+    }
+    let counts: Vec<String> = counters.iter().map(|(name, n)| format!("{n} {name}")).collect();
+    lines.push(format!("  {}", counts.join(", ")));
+    lines.join("\n")
+}
+
+fn is_png(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png"))
+}
+
+fn image_path(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    let is_exr = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr"));
+    if is_exr || is_png(&path) {
+        Ok(path)
+    } else {
+        Err("write a name that ends in .exr or .png".into())
+    }
+}
+
+/// Reads `WIDTHxHEIGHT`, or one number for both.
+pub(super) fn resolution(text: &str) -> Result<[u32; 2], String> {
+    let (width, height) = text.split_once(['x', 'X']).unwrap_or((text, text));
+    let side = |text: &str| {
+        let side = text.trim().parse().ok().filter(|side| (1..=16_384).contains(side));
+        side.ok_or_else(|| {
+            format!("`{text}` is no number of pixels from 1 to 16384; write 512x512")
+        })
+    };
+    Ok([side(width)?, side(height)?])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::resolution;
+
+    #[test]
+    fn a_resolution_is_two_numbers_or_one() {
+        assert_eq!(resolution("640x360"), Ok([640, 360]));
+        assert_eq!(resolution("256"), Ok([256, 256]));
+        for wrong in ["", "0x4", "512x", "20000x2", "-1", "a"] {
+            assert!(resolution(wrong).is_err(), "{wrong}");
+        }
+    }
+}

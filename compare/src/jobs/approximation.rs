@@ -1,0 +1,71 @@
+//! The job of rendering and timing an approximation.
+
+use super::{Id, Made};
+use crate::Error;
+use realtime::{Filter, Gpu, Request, Timing};
+use scenes::{LayerName, Scene, View};
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// A method's image of a scene, and how long it takes.
+#[derive(Clone, Debug)]
+pub struct Approximation<'a> {
+    /// What is rendered.
+    pub scene: &'a Scene,
+    /// How.
+    pub request: Request,
+}
+
+/// All that the image depends on.
+#[derive(Serialize)]
+struct Description<'a> {
+    sources: &'a str,
+    scene: &'a str,
+    request: String,
+    adapter: &'a str,
+    driver: &'a str,
+}
+
+impl<'a> Approximation<'a> {
+    /// The image that is judged against [`super::Exact::truth`], with the same
+    /// size and positions, timed for `timing_s` seconds.
+    #[must_use]
+    pub fn judged(scene: &'a Scene, view: &View, method: &str, timing_s: f64) -> Self {
+        let layers =
+            vec![LayerName::Radiance, LayerName::Coverage, LayerName::Exit, LayerName::Flags];
+        let view = View { layers, ..view.clone() };
+        let timing = Timing { seconds: timing_s, ..Timing::default() };
+        let request = Request {
+            view,
+            method: method.to_owned(),
+            parameters: BTreeMap::new(),
+            filter: Filter::Manual,
+            timing: Some(timing),
+        };
+        Self { scene, request }
+    }
+
+    /// Content id: the same image, though never the same time.
+    #[must_use]
+    pub fn id(&self, gpu: &Gpu) -> Id {
+        let adapter = gpu.info();
+        Id::of(&Description {
+            sources: env!("SNELL_REALTIME_SOURCES"),
+            scene: &self.scene.source.sha256,
+            request: format!("{:?}", self.request),
+            adapter: &adapter.name,
+            driver: &adapter.driver,
+        })
+    }
+
+    /// Renders and times the image and writes it to `image`. It is never taken
+    /// from the store: its time is a measurement, not a result that keeps.
+    ///
+    /// # Errors
+    /// If the method cannot show the scene or the image cannot be written.
+    pub fn make(&self, gpu: &Gpu, image: &Path) -> Result<Made, Error> {
+        let rendering = realtime::render(gpu, self.scene, &self.request)?;
+        Made::write(self.id(gpu), image, rendering)
+    }
+}

@@ -1,0 +1,60 @@
+//! How long a study will take, asked of this machine before it starts: a small
+//! image of each scene is traced and the time scaled up.
+
+use crate::Error;
+use crate::jobs::Exact;
+use std::fmt;
+use std::time::{Duration, Instant};
+
+/// Edge of the probing image, pixels.
+const PROBE_PX: u32 = 32;
+/// Seconds per image for everything but tracing and timing: compiling
+/// shaders, reading back, metrics, writing.
+const OVERHEAD_S: f64 = 0.6;
+
+/// What a study is going to do.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Estimate {
+    /// Exact images to trace.
+    pub exact_images: usize,
+    /// Exact images that the store has already.
+    pub stored_images: usize,
+    /// Scene and method pairs to render and time.
+    pub pairs: usize,
+    /// How long all of it should take.
+    pub duration: Duration,
+}
+
+/// Seconds that exact images of one scene should take on this machine; also
+/// finds out whether the scene can be traced at all.
+pub(super) fn seconds(jobs: &[&Exact]) -> Result<f64, Error> {
+    let Some(first) = jobs.first() else { return Ok(0.0) };
+    let mut probe = (*first).clone();
+    probe.request.view.resolution_px = [PROBE_PX, PROBE_PX];
+    probe.request.view.positions_per_axis = 1;
+    let start = Instant::now();
+    reference::render(probe.scene, &probe.request)?;
+    let per_ray = start.elapsed().as_secs_f64() / probe.camera_rays();
+    Ok(per_ray * jobs.iter().map(|job| job.camera_rays()).sum::<f64>())
+}
+
+/// Seconds that the pairs should take if each is timed for `timing_s`.
+pub(super) fn pairs_seconds(pairs: usize, timing_s: f64) -> f64 {
+    pairs as f64 * (timing_s + OVERHEAD_S)
+}
+
+impl fmt::Display for Estimate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let seconds = self.duration.as_secs_f64();
+        write!(
+            f,
+            "{} exact images to trace ({} more in the cache), {} method images to time: about ",
+            self.exact_images, self.stored_images, self.pairs
+        )?;
+        if seconds < 90.0 {
+            write!(f, "{:.0} s", seconds.ceil())
+        } else {
+            write!(f, "{:.0} min", (seconds / 60.0).ceil())
+        }
+    }
+}

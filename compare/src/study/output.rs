@@ -1,0 +1,33 @@
+//! The folder a study leaves behind.
+
+use crate::jobs::Made;
+use crate::results::{self, ResultRow, Study};
+use crate::{Error, file, report};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Place of a run's image, relative to the folder of the study.
+pub(super) fn image_place(scene: &str, method: &str) -> PathBuf {
+    Path::new("images").join(format!("{}.{}.exr", plain(scene), plain(method)))
+}
+
+/// Copies a stored image to its place.
+pub(super) fn copy_image(made: &Made, to: &Path) -> Result<(), Error> {
+    file::replace(to, |partial| {
+        fs::copy(&made.image, partial).map(|_| ()).map_err(Error::file(to, "cannot be written"))
+    })
+}
+
+/// Writes the rows, the study, and the report made of them.
+pub(super) fn write(out: &Path, study: &Study, rows: &[ResultRow]) -> Result<(), Error> {
+    results::write_rows(out, rows)?;
+    results::write_study(out, study)?;
+    report::write(out)?;
+    Ok(())
+}
+
+/// A name as part of a file name: letters, digits, `-` and `_` only.
+fn plain(name: &str) -> String {
+    let allowed = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+    name.chars().map(|c| if allowed(c) { c } else { '_' }).collect()
+}

@@ -1,0 +1,50 @@
+//! The table a study ends with: scene x method, error, time, what was left out.
+
+use crate::results::{REFERENCE, ResultRow, Status, Study};
+
+/// Columns: heading, metric, unit, digits after the point.
+const COLUMNS: [(&str, &str, usize); 4] = [
+    ("median exit", "exit_angle_median_deg", 2),
+    ("p95 exit", "exit_angle_p95_deg", 2),
+    ("relmse_e1e-2", "relmse_e1e-2", 4),
+    ("FLIP", "flip_hdr", 4),
+];
+
+/// Rows of text, headings first: one row per scene and method.
+#[must_use]
+pub fn summary(study: &Study, rows: &[ResultRow]) -> Vec<Vec<String>> {
+    let mut table = vec![vec!["scene".to_owned(), "method".to_owned()]];
+    table[0].extend(COLUMNS.map(|(heading, ..)| heading.to_owned()));
+    table[0].extend(["GPU ms", "left out"].map(str::to_owned));
+    for run in study.runs.iter().filter(|run| run.method != REFERENCE) {
+        let value = |metric: &str, digits: usize| {
+            let of_run = |row: &&ResultRow| row.id == run.id && row.metric == metric;
+            cell(rows.iter().find(of_run), digits)
+        };
+        let mut line = vec![run.scene.clone(), run.method.clone()];
+        line.extend(COLUMNS.map(|(_, metric, digits)| value(metric, digits)));
+        line.push(value(&study.time_metric, 2));
+        line.push(left_out(&run.plan));
+        table.push(line);
+    }
+    table
+}
+
+fn cell(row: Option<&ResultRow>, digits: usize) -> String {
+    let Some(row) = row else { return "-".to_owned() };
+    match (row.status, row.value) {
+        (Status::Ok | Status::Identical, Some(value)) => format!("{value:.digits$}"),
+        (Status::Invalid, _) => "invalid".to_owned(),
+        _ => "-".to_owned(),
+    }
+}
+
+/// How much of the program a scene did not need, by kind.
+fn left_out(plan: &scenes::Plan) -> String {
+    use scenes::plan::Kind;
+    let count = |kind| plan.left_out.iter().filter(|left| left.kind == kind).count();
+    let bytes: u64 = plan.left_out.iter().map(|left| left.saves_bytes).sum();
+    let passes = count(Kind::Pass);
+    let plural = if passes == 1 { "pass" } else { "passes" };
+    format!("{passes} {plural}, {:.1} MB", bytes as f64 / 1e6)
+}
