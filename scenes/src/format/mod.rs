@@ -4,6 +4,7 @@
 //! write instead. Unknown keys are errors. A key that is valid and that some
 //! renderer cannot show yet is that renderer's business.
 
+mod body;
 mod choice;
 mod document;
 mod error;

@@ -5,6 +5,8 @@
 
 mod claim;
 mod read;
+#[cfg(test)]
+mod tests;
 mod write;
 
 pub use read::{read, read_lat_long};
