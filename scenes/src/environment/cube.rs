@@ -37,10 +37,18 @@ impl Cube {
         cube
     }
 
-    /// Fills a cube with means over 2 x 2 places of each texel.
-    pub fn averaged(size_px: u32, radiance: impl Fn(DVec3) -> DVec3 + Sync) -> Self {
+    /// Fills a cube with means over 2 x 2 places of each texel, or with the
+    /// value at the centre where the function is smooth.
+    pub fn averaged(
+        size_px: u32,
+        radiance: impl Fn(DVec3) -> DVec3 + Sync,
+        is_smooth: impl Fn(DVec3) -> bool + Sync,
+    ) -> Self {
         let quarter = 0.25 / f64::from(size_px);
         Self::from_fn(size_px, |centre| {
+            if is_smooth(centre) {
+                return radiance(centre);
+            }
             let (face, at) = face_of(centre);
             let places = [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)];
             let place = |(x, y)| at + quarter * DVec2::new(x, y);

@@ -36,27 +36,31 @@ impl LatLong {
         repaired
     }
 
-    /// Fills an image from a function of direction, mean of 2 x 2 places per
-    /// texel.
-    fn from_fn(size_px: [u32; 2], radiance: impl Fn(DVec3) -> DVec3 + Sync) -> Self {
+    /// Fills an image from a function of direction: mean of 2 x 2 places per
+    /// texel, or the value at the centre where the function is smooth.
+    fn from_fn(
+        size_px: [u32; 2],
+        radiance: impl Fn(DVec3) -> DVec3 + Sync,
+        is_smooth: impl Fn(DVec3) -> bool + Sync,
+    ) -> Self {
         let [width, height] = size_px.map(|n| n as usize);
         let mut texels = vec![[0.0; 3]; width * height];
         texels.par_chunks_mut(width).enumerate().for_each(|(y, row)| {
             for (x, texel) in row.iter_mut().enumerate() {
-                let quarter = [(0.25, 0.25), (0.75, 0.25), (0.25, 0.75), (0.75, 0.75)];
-                let sum: DVec3 = quarter
-                    .iter()
-                    .map(|(dx, dy)| {
-                        let phi = (x as f64 + dx) / width as f64 * std::f64::consts::TAU;
-                        let theta = (y as f64 + dy) / height as f64 * std::f64::consts::PI;
-                        radiance(DVec3::new(
-                            theta.sin() * phi.sin(),
-                            theta.cos(),
-                            -theta.sin() * phi.cos(),
-                        ))
-                    })
-                    .sum();
-                *texel = (0.25 * sum).as_vec3().to_array();
+                let at = |dx: f64, dy: f64| {
+                    let phi = (x as f64 + dx) / width as f64 * std::f64::consts::TAU;
+                    let theta = (y as f64 + dy) / height as f64 * std::f64::consts::PI;
+                    let ((sin_phi, cos_phi), (sin, cos)) = (phi.sin_cos(), theta.sin_cos());
+                    DVec3::new(sin * sin_phi, cos, -sin * cos_phi)
+                };
+                let centre = at(0.5, 0.5);
+                let mean = if is_smooth(centre) {
+                    radiance(centre)
+                } else {
+                    let places = [(0.25, 0.25), (0.75, 0.25), (0.25, 0.75), (0.75, 0.75)];
+                    0.25 * places.map(|(dx, dy)| radiance(at(dx, dy))).iter().sum::<DVec3>()
+                };
+                *texel = mean.as_vec3().to_array();
             }
         });
         Self { size_px, texels }
@@ -77,7 +81,7 @@ impl Map {
     ) -> Self {
         let repaired_texels = lat_long.repair(repair);
         let size = cube_size_px.unwrap_or_else(|| default_cube_size(lat_long.size_px[0]));
-        let cube = Cube::averaged(size, |d| lat_long.radiance(d, rotation_deg));
+        let cube = Cube::averaged(size, |d| lat_long.radiance(d, rotation_deg), |_| false);
         Self { name: name.to_owned(), lat_long, cube, rotation_deg, repaired_texels }
     }
 
@@ -88,8 +92,8 @@ impl Map {
         let size = cube_size_px.unwrap_or(SKY_CUBE_PX);
         Self {
             name: "sky".to_owned(),
-            lat_long: LatLong::from_fn([2 * size, size], |d| sky.radiance(d)),
-            cube: Cube::averaged(size, |d| turned.radiance(d)),
+            lat_long: LatLong::from_fn([2 * size, size], |d| sky.radiance(d), |d| sky.is_smooth(d)),
+            cube: Cube::averaged(size, |d| turned.radiance(d), |d| turned.is_smooth(d)),
             rotation_deg,
             repaired_texels: 0,
         }
@@ -107,7 +111,7 @@ mod tests {
 
     /// The image whose colours are its directions: 0.5 + 0.5 d.
     fn axes() -> LatLong {
-        LatLong::from_fn([512, 256], |d| DVec3::splat(0.5) + 0.5 * d)
+        LatLong::from_fn([512, 256], |d| DVec3::splat(0.5) + 0.5 * d, |_| false)
     }
 
     #[test]

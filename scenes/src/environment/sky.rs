@@ -65,6 +65,16 @@ impl Sky {
         }
     }
 
+    /// True where nothing changes within a few texels: away from the ground,
+    /// the lines and the sun's edge.
+    #[must_use]
+    pub fn is_smooth(&self, direction: DVec3) -> bool {
+        let near_sun = self.sun.is_some_and(|sun| {
+            direction.dot(sun.direction) > (2.0 + 1.2 * sun.radius_deg).to_radians().cos()
+        });
+        direction.y > 0.05 && self.graticule.is_none() && !near_sun
+    }
+
     fn background(&self, direction: DVec3) -> DVec3 {
         let up = direction.y.clamp(-1.0, 1.0);
         if up >= 0.0 {
@@ -96,6 +106,12 @@ impl TurnedSky<'_> {
     #[must_use]
     pub fn radiance(&self, direction: DVec3) -> DVec3 {
         self.sky.radiance(self.back * direction)
+    }
+
+    /// As [`Sky::is_smooth`].
+    #[must_use]
+    pub fn is_smooth(&self, direction: DVec3) -> bool {
+        self.sky.is_smooth(self.back * direction)
     }
 }
 
