@@ -22,6 +22,9 @@ pub enum Error {
     /// A scene that cannot be read.
     #[error(transparent)]
     Scene(#[from] scenes::Error),
+    /// A scene that cannot be written for another renderer.
+    #[error(transparent)]
+    Export(#[from] scenes::export::ExportError),
     /// An image file that cannot be read or written.
     #[error(transparent)]
     ImageFile(#[from] scenes::image::Error),
@@ -43,9 +46,6 @@ pub enum Error {
     /// A study in which no method could show any scene.
     #[error("no method could show any of the scenes\n{}", reasons(.0))]
     NothingDone(Vec<NotDone>),
-    /// An argument that makes no sense.
-    #[error("{0}")]
-    Argument(String),
     /// Image files that cannot be compared.
     #[error(transparent)]
     ImagePair(#[from] ImagePairError),

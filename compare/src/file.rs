@@ -19,10 +19,7 @@ pub(crate) fn replace(
     if path.is_dir() {
         return Err(failed()(not_a_file()));
     }
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-    if let Some(folder) = folder {
-        fs::create_dir_all(folder).map_err(failed())?;
-    }
+    make_folder_of(path)?;
     // The extension stays last, because writers look at it.
     let mut partial = std::ffi::OsString::from(format!(".partial-{}-", std::process::id()));
     partial.push(name);
@@ -32,6 +29,16 @@ pub(crate) fn replace(
         let _ = fs::remove_file(&partial);
     }
     written
+}
+
+/// Makes the folder that a file is to be written to.
+///
+/// # Errors
+/// If it cannot be made.
+pub(crate) fn make_folder_of(path: &Path) -> Result<(), Error> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let made = folder.map_or(Ok(()), fs::create_dir_all);
+    made.map_err(Error::file(path, "its folder cannot be made"))
 }
 
 #[cfg(test)]

@@ -90,14 +90,28 @@ impl Builtin {
     /// # Errors
     /// If a file that set-up fetches is not there or broken.
     pub fn load(&self) -> Result<Scene, Error> {
-        let assets = assets_folder();
-        let missing = self.assets.iter().map(|name| assets.join(name)).find(|path| !path.exists());
-        if let Some(path) = missing {
+        if let Some(path) = self.missing() {
             return Err(Error::MissingAsset { scene: self.name.to_owned(), path });
         }
-        let mut scene = format::parse(self.text, &format!("built-in {}", self.name), &assets)?;
+        let name = format!("built-in {}", self.name);
+        let mut scene = format::parse(self.text, &name, &assets_folder())?;
         scene.name = self.name.to_owned();
         Ok(scene)
+    }
+
+    /// The first file the scene needs that set-up has not fetched, if any.
+    #[must_use]
+    pub fn missing(&self) -> Option<PathBuf> {
+        let assets = assets_folder();
+        self.assets.iter().map(|name| assets.join(name)).find(|path| !path.exists())
+    }
+
+    /// The title in its text, without loading anything.
+    #[must_use]
+    pub fn title(&self) -> String {
+        let table: Option<toml::Table> = toml::from_str(self.text).ok();
+        let title = table.as_ref().and_then(|table| table.get("title")?.as_str());
+        title.unwrap_or_default().to_owned()
     }
 }
 

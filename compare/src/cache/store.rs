@@ -32,14 +32,10 @@ pub enum Found {
 }
 
 impl Store {
-    /// Opens a store, creating its folder if need be.
-    ///
-    /// # Errors
-    /// If the folder cannot be created.
-    pub fn open(root: &Path) -> Result<Self, Error> {
-        fs::create_dir_all(root).map_err(Error::file(root, "the cache cannot be created"))?;
-        let root = root.canonicalize().map_err(Error::file(root, "the cache cannot be opened"))?;
-        Ok(Self { root })
+    /// A store in a folder, which is made when the first result is stored.
+    #[must_use]
+    pub fn new(root: PathBuf) -> Self {
+        Self { root }
     }
 
     /// The folder of the whole store.
@@ -81,6 +77,7 @@ impl Store {
         fill: impl FnOnce(&Path) -> Result<(), Error>,
     ) -> Result<PathBuf, Error> {
         let failed = |error| Error::file(&self.root, "the cache cannot be written")(error);
+        fs::create_dir_all(&self.root).map_err(failed)?;
         let partial =
             tempfile::Builder::new().prefix(PARTIAL).tempdir_in(&self.root).map_err(failed)?;
         fill(partial.path())?;
@@ -133,7 +130,7 @@ mod tests {
 
     fn store() -> (tempfile::TempDir, Store, Id) {
         let folder = tempfile::tempdir().unwrap();
-        let store = Store::open(&folder.path().join("deep/cache")).unwrap();
+        let store = Store::new(folder.path().join("deep/cache"));
         (folder, store, Id::of(&"a result"))
     }
 

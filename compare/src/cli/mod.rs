@@ -4,9 +4,9 @@
 mod adapter;
 mod adapters;
 mod compare;
+mod export;
 mod methods;
 mod output;
-mod own;
 mod plan;
 mod realtime;
 mod reference;
@@ -47,6 +47,7 @@ enum Command {
     Compare(compare::Args),
     Study(study::Args),
     Report(report::Args),
+    Export(export::Args),
 }
 
 impl Command {
@@ -61,6 +62,7 @@ impl Command {
             Self::Compare(args) => compare::run(args, output),
             Self::Study(args) => study::run(args, output),
             Self::Report(args) => report::run(args, output),
+            Self::Export(args) => export::run(args, output),
         }
     }
 }

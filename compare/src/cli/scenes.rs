@@ -5,6 +5,7 @@ use super::output::{Output, table};
 use crate::Error;
 use scenes::Builtin;
 use serde::Serialize;
+use std::path::PathBuf;
 
 /// List the built-in scenes, or print one as a start for your own
 #[derive(clap::Args, Debug)]
@@ -20,8 +21,8 @@ struct Answer<'a> {
     title: &'a str,
     in_default_study: bool,
     in_quick_study: bool,
-    /// Why it cannot be rendered on this machine; empty if it can.
-    missing: String,
+    /// File it needs that set-up has not fetched.
+    missing: Option<PathBuf>,
     text: &'a str,
 }
 
@@ -36,9 +37,7 @@ pub(super) fn run(args: &Args, output: Output) -> Result<Status, Error> {
     }
     let mut rows = Vec::new();
     for builtin in list {
-        let loaded = builtin.load();
-        let missing = loaded.as_ref().err().map(ToString::to_string).unwrap_or_default();
-        let title = loaded.map(|scene| scene.title).unwrap_or_default();
+        let (title, missing) = (builtin.title(), builtin.missing());
         if output.json {
             let Builtin { name, text, in_default_study, in_quick_study, .. } = *builtin;
             let title = title.as_str();
@@ -52,7 +51,8 @@ pub(super) fn run(args: &Args, output: Output) -> Result<Status, Error> {
                 (false, true) => "default",
                 (false, false) => "",
             };
-            let about = missing.lines().next().map_or(title, ToOwned::to_owned);
+            let needs = missing.map(|file| format!(" (needs {}: `make setup`)", file.display()));
+            let about = title + &needs.unwrap_or_default();
             rows.push(vec![builtin.name.to_owned(), studies.to_owned(), about]);
         }
     }

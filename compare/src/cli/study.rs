@@ -2,7 +2,7 @@
 
 use super::output::{Output, table};
 use super::view::resolution;
-use super::{Status, adapter::AdapterArg, own, scene};
+use super::{Status, adapter::AdapterArg, scene};
 use crate::Error;
 use crate::cache::{self, Store};
 use crate::results::NotDone;
@@ -60,7 +60,7 @@ pub(super) fn run(args: &Args, output: Output) -> Result<Status, Error> {
     let scenes = scenes(args, &mut left_out)?;
     let methods = methods(&args.methods)?;
     let gpu = args.adapter.open()?;
-    let store = Store::open(&args.cache.clone().unwrap_or_else(cache::default_folder))?;
+    let store = Store::new(args.cache.clone().unwrap_or_else(cache::default_folder));
     let spec = Spec {
         scenes,
         methods,
@@ -93,7 +93,7 @@ pub(super) fn run(args: &Args, output: Output) -> Result<Status, Error> {
 /// load, for want of a file that set-up fetches, are left out.
 fn scenes(args: &Args, left_out: &mut Vec<NotDone>) -> Result<Vec<Scene>, Error> {
     if let Some(obj) = &args.obj {
-        return Ok(vec![own::scene(obj, args.map.as_deref(), args.eta)?]);
+        return Ok(vec![Scene::from_obj(obj, args.map.as_deref(), args.eta)?]);
     }
     if !args.scenes.is_empty() {
         return args.scenes.iter().map(|name| scene(name)).collect();

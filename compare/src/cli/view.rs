@@ -65,6 +65,7 @@ impl ViewArgs {
         if is_png(&self.out) {
             self.write_png(layers)?;
         } else {
+            file::make_folder_of(&self.out)?;
             scenes::image::write_exr(&self.out, layers)?;
         }
         let answer = Answer {

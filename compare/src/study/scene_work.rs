@@ -2,10 +2,10 @@
 
 use super::judge::{Judge, times};
 use super::{Spec, output};
-use crate::Error;
 use crate::cache::Store;
 use crate::jobs::{Approximation, Exact, Made, is_disjoint};
 use crate::results::{NotDone, REFERENCE, ResultRow, Run, SceneEntry, Study};
+use crate::{Error, file};
 use realtime::Gpu;
 use scenes::Scene;
 use std::collections::BTreeMap;
@@ -101,7 +101,9 @@ impl<'a> SceneWork<'a> {
             let view = &self.truth.request.view;
             let job = Approximation::judged(self.scene, view, method, spec.timing_s);
             let place = output::image_place(&self.scene.name, method);
-            match job.make(gpu, &spec.out.join(&place)) {
+            let image = spec.out.join(&place);
+            file::make_folder_of(&image)?;
+            match job.make(gpu, &image) {
                 Ok(made) => {
                     let parameters = &made.facts.provenance.parameters;
                     let mut run = Run { image: place, ..self.run(method, &made, parameters) };

@@ -1,0 +1,47 @@
+//! `snell export SCENE --to FORMAT`: the same scene for another renderer.
+
+use super::output::Output;
+use super::{Status, scene};
+use crate::Error;
+use clap::ValueEnum;
+use scenes::export;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+/// Write a scene for another renderer: anyone's second opinion
+#[derive(clap::Args, Debug)]
+pub(super) struct Args {
+    /// Built-in name (see `snell scenes`) or scene file
+    scene: String,
+    /// Form to write
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    to: Format,
+    /// Folder to make; it must not exist yet
+    #[arg(short, long, value_name = "DIR")]
+    out: PathBuf,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(super) enum Format {
+    /// Mitsuba 3 XML
+    Mitsuba,
+    /// pbrt-v4
+    Pbrt,
+    /// glTF 2.0 with KHR ior, transmission, volume and dispersion
+    Gltf,
+}
+
+pub(super) fn run(args: &Args, output: Output) -> Result<Status, Error> {
+    let format = match args.to {
+        Format::Mitsuba => export::Format::Mitsuba,
+        Format::Pbrt => export::Format::Pbrt,
+        Format::Gltf => export::Format::Gltf,
+    };
+    let main = export::write(&scene(&args.scene)?, format, &args.out)?;
+    if output.json {
+        output.object("snell.export/1", &BTreeMap::from([("file", &main)]))?;
+    } else {
+        output.line(&main.display().to_string())?;
+    }
+    Ok(Status::Done)
+}
