@@ -5,8 +5,12 @@
 //! renderers, `reference` and `realtime`, share these descriptions and no
 //! optics, so that their agreement means something.
 
+pub mod air;
 pub mod builtin;
 pub mod camera;
+pub mod crack;
+pub mod deform;
+pub mod distance;
 pub mod environment;
 pub mod eta;
 pub mod export;
@@ -22,6 +26,8 @@ pub mod noise;
 pub mod normals;
 pub mod obj;
 pub mod plan;
+mod pose;
+mod proxy;
 pub mod rendering;
 pub mod scene;
 pub mod shape;

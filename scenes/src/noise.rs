@@ -7,6 +7,7 @@
 //! its corner, blended with 6t⁵ - 15t⁴ + 10t³ along each axis.
 //! Source of the blend: Perlin, "Improving Noise", SIGGRAPH 2002.
 
+use crate::scene::Bump;
 use glam::DVec3;
 
 /// A number and how fast it changes.
@@ -118,5 +119,109 @@ impl SplitMix64 {
     pub fn normal(&mut self) -> f64 {
         let radius = (-2.0 * (1.0 - self.uniform()).ln()).sqrt();
         radius * (std::f64::consts::TAU * self.uniform()).cos()
+    }
+}
+
+/// Octaves of a bump map.
+pub const BUMP_OCTAVES: u32 = 3;
+
+/// The normal of a bump-mapped surface: the surface's own, tilted against the
+/// slope of the noise.
+///
+/// n' = normalize(n - amplitude (g - (g · n) n)), with g the gradient of
+/// [`fbm`] of 3 octaves at `position_os` · frequency, with respect to that
+/// scaled position. Both vectors in object space, `normal_os` of unit length.
+#[must_use]
+pub fn bumped(normal_os: DVec3, position_os: DVec3, bump: &Bump) -> DVec3 {
+    let slope = fbm(position_os * bump.frequency_per_m, BUMP_OCTAVES, bump.seed).gradient;
+    (normal_os - bump.amplitude * slope.reject_from_normalized(normal_os)).normalize()
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::*;
+
+    fn points() -> impl Iterator<Item = DVec3> {
+        let mut random = SplitMix64(7);
+        std::iter::repeat_with(move || {
+            DVec3::from_array([0; 3].map(|_| 20.0 * random.uniform() - 10.0))
+        })
+        .take(2_000)
+    }
+
+    #[test]
+    fn the_gradient_is_the_derivative() {
+        for p in points() {
+            let noise = fbm(p, 3, 5);
+            for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
+                let step = 1e-5 * axis;
+                let difference = (fbm(p + step, 3, 5).value - fbm(p - step, 3, 5).value) / 2e-5;
+                assert!((difference - noise.gradient.dot(axis)).abs() < 1e-6, "{p}");
+            }
+        }
+    }
+
+    /// The lattice is where gradient noise vanishes, and its gradient there is
+    /// the corner's own: exact numbers that f32 holds.
+    #[test]
+    fn the_lattice_is_exact_in_single_precision() {
+        for p in points().map(DVec3::round) {
+            let noise = gradient_noise(p, 3);
+            assert_eq!(noise.value, 0.0);
+            let single = noise.gradient.as_vec3().as_dvec3();
+            assert_eq!(single, noise.gradient);
+            assert!(noise.gradient.abs().max_element() < 1.0);
+        }
+    }
+
+    #[test]
+    fn noise_is_centred_bounded_and_different_for_each_seed() {
+        let (mut sum, mut square, mut product) = (0.0, 0.0, 0.0);
+        for p in points() {
+            let [one, other] = [1, 2].map(|seed| fbm(p, 4, seed).value);
+            assert!(one.abs() < 1.0);
+            sum += one;
+            square += one * one;
+            product += one * other;
+        }
+        assert!((sum / 2_000.0).abs() < 0.02);
+        assert!((product / square).abs() < 0.1);
+        assert!(square / 2_000.0 > 0.01);
+    }
+
+    /// First outputs for seed 1234567, as published with the reference code.
+    #[test]
+    fn splitmix_gives_the_published_sequence() {
+        let mut random = SplitMix64(1_234_567);
+        let first: Vec<u64> = (0..3).map(|_| random.next_bits()).collect();
+        assert_eq!(
+            first,
+            [6_457_827_717_110_365_317, 3_203_168_211_198_807_973, 9_817_491_932_198_370_423]
+        );
+    }
+
+    #[test]
+    fn normal_deviates_have_unit_variance() {
+        let mut random = SplitMix64(3);
+        let values: Vec<f64> = (0..20_000).map(|_| random.normal()).collect();
+        let mean = values.iter().sum::<f64>() / 20_000.0;
+        let variance = values.iter().map(|v| v * v).sum::<f64>() / 20_000.0;
+        assert!(mean.abs() < 0.03 && (variance - 1.0).abs() < 0.05, "{mean} {variance}");
+    }
+
+    #[test]
+    fn a_bumped_normal_stays_unit_and_without_amplitude_stays_itself() {
+        let mut bump = Bump { amplitude: 0.3, frequency_per_m: 8.0, seed: 1 };
+        let mut greatest = 0.0f64;
+        for p in points() {
+            let n = p.normalize();
+            let tilted = bumped(n, p, &bump);
+            assert!((tilted.length() - 1.0).abs() < 1e-14 && tilted.dot(n) > 0.0);
+            greatest = greatest.max(tilted.angle_between(n));
+        }
+        assert!((0.2..1.2).contains(&greatest), "{greatest}");
+        bump.amplitude = 0.0;
+        assert!(bumped(DVec3::Y, DVec3::ONE, &bump) == DVec3::Y);
     }
 }

@@ -130,7 +130,7 @@ pub fn noisy_ball(frequency: u32, amplitude: f64, seed: u64) -> Mesh {
 
 /// Radius of a lumpy, concave figure: folds where the noise is near zero.
 pub(super) fn folded(p: DVec3, seed: u64) -> f64 {
-    let ridge = fbm(p * 1.6, 2, seed).value;
-    let detail = fbm(p * 5.0, 2, seed.wrapping_add(1)).value;
-    0.55 + (ridge * ridge + 0.004).sqrt() + 0.06 * detail
+    let ridge = fbm(p * 1.4, 2, seed).value;
+    let detail = fbm(p * 4.0, 2, seed.wrapping_add(1)).value;
+    0.7 + 0.9 * (ridge * ridge + 0.01).sqrt() + 0.05 * detail
 }

@@ -28,6 +28,9 @@ use glam::DVec3;
 
 /// Edges sharper than this stay sharp in the built-in meshes' normals, degrees.
 pub const CREASE_DEG: f64 = 40.0;
+/// Bodies of flat facets, whatever the angle between them.
+const FACETED: [&str; 7] =
+    ["brilliant", "prism", "cube", "corner-cube", "gear", "thin-wall", "edge-to-edge"];
 /// Largest frequency of `geodesic-N`: 20 million triangles.
 const MOST_FREQUENT: u32 = 1000;
 
@@ -98,8 +101,10 @@ pub fn builtin(name: &str) -> Option<Mesh> {
         "half-flipped" => half_flipped(8),
         _ => return None,
     };
-    let creases = normals::creased(&mesh, CREASE_DEG);
-    Some(Mesh { normals: Some(creases), ..mesh })
+    let is_faceted = FACETED.contains(&name);
+    let shading =
+        if is_faceted { normals::flat(&mesh) } else { normals::creased(&mesh, CREASE_DEG) };
+    Some(Mesh { normals: Some(shading), ..mesh })
 }
 
 /// A standing body with deep folds, 2 m tall.

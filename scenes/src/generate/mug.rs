@@ -10,7 +10,7 @@ const SLICES: u32 = 41;
 /// Segments of the profile; 41 rings lie between the two poles.
 const STACKS: u32 = 42;
 /// Middle profile point of the upper and the lower hole for the handle.
-const HOLES: [u32; 2] = [18, 10];
+const HOLES: [u32; 2] = [17, 10];
 /// Rings of quads along the handle.
 const SEGMENTS: u32 = 14;
 

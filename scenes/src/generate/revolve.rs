@@ -123,8 +123,8 @@ pub fn torus(ring_m: f64, tube_m: f64, slices: u32, sides: u32) -> Mesh {
 }
 
 /// Points along a polyline whose corners are rounded: each inner corner is
-/// replaced by a quadratic curve that starts and ends `reach_m` from it.
-/// `count` points at equal arc lengths, both ends included.
+/// replaced by a quadratic curve that starts and ends its number of metres away.
+/// `count` points, both ends included, closer together where the curve turns.
 pub(super) fn rounded(corners: &[(DVec2, f64)], count: u32) -> Vec<DVec2> {
     let mut dense = vec![corners[0].0];
     for window in corners.windows(3) {
@@ -137,24 +137,31 @@ pub(super) fn rounded(corners: &[(DVec2, f64)], count: u32) -> Vec<DVec2> {
         }));
     }
     dense.extend(corners.last().map(|(end, _)| *end));
-    by_arc_length(&dense, count)
+    resampled(&dense, count)
 }
 
-fn by_arc_length(points: &[DVec2], count: u32) -> Vec<DVec2> {
-    let mut lengths = vec![0.0];
-    for pair in points.windows(2) {
-        lengths.push(lengths[lengths.len() - 1] + pair[0].distance(pair[1]));
+/// Length that a turn of one radian counts for when points are spread, metres.
+const TURN_M: f64 = 0.06;
+
+fn resampled(points: &[DVec2], count: u32) -> Vec<DVec2> {
+    let mut measure = vec![0.0];
+    for i in 1..points.len() {
+        let step = points[i] - points[i - 1];
+        let turn = points.get(i + 1).map_or(0.0, |next| step.angle_to(next - points[i]).abs());
+        // A step without length has no direction.
+        let turn = if turn.is_finite() { turn } else { 0.0 };
+        measure.push(measure[i - 1] + step.length() + TURN_M * turn);
     }
-    let (last, total) = (points.len() - 1, lengths[lengths.len() - 1]);
+    let (last, total) = (points.len() - 1, measure[measure.len() - 1]);
     (0..count)
         .map(|i| {
             if i == 0 || i + 1 == count {
                 return points[if i == 0 { 0 } else { last }];
             }
             let target = total * f64::from(i) / f64::from(count - 1);
-            let after = lengths.partition_point(|length| *length < target).clamp(1, last);
-            let span = lengths[after] - lengths[after - 1];
-            let share = if span > 0.0 { (target - lengths[after - 1]) / span } else { 0.0 };
+            let after = measure.partition_point(|m| *m < target).clamp(1, last);
+            let span = measure[after] - measure[after - 1];
+            let share = if span > 0.0 { (target - measure[after - 1]) / span } else { 0.0 };
             points[after - 1].lerp(points[after], share)
         })
         .collect()

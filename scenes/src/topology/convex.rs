@@ -1,9 +1,8 @@
 //! Whether a closed mesh is convex, beyond doubt.
 
 use super::{edges, inspect};
-use crate::Mesh;
+use crate::{Mesh, distance::winding};
 use glam::{DVec3, Vec3Swizzles};
-use std::f64::consts::PI;
 
 /// True only if the mesh certainly bounds one convex body.
 ///
@@ -22,7 +21,7 @@ pub fn is_convex(mesh: &Mesh) -> bool {
     let centre = mesh.positions.iter().sum::<DVec3>() / mesh.positions.len() as f64;
     let is_behind_all =
         (0..mesh.triangles.len()).all(|index| sign_above(mesh.corners(index), centre) == Some(-1));
-    is_behind_all && (windings(mesh, centre) - 1.0).abs() < 0.5 && has_no_concave_edge(mesh)
+    is_behind_all && (winding(mesh, centre) - 1.0).abs() < 0.5 && has_no_concave_edge(mesh)
 }
 
 fn has_no_concave_edge(mesh: &Mesh) -> bool {
@@ -47,20 +46,4 @@ fn sign_above([a, b, c]: [DVec3; 3], p: DVec3) -> Option<i32> {
         return Some(if determinant == 0.0 { 0 } else { determinant.signum() as i32 });
     }
     None
-}
-
-/// How often the surface winds around a point: the sum of its triangles' solid
-/// angles over 4π.
-///
-/// Source: Van Oosterom & Strackee, "The solid angle of a plane triangle", IEEE
-/// Transactions on Biomedical Engineering 30 (2), 1983.
-fn windings(mesh: &Mesh, point: DVec3) -> f64 {
-    let solid_angle: f64 = (0..mesh.triangles.len())
-        .map(|index| {
-            let [a, b, c] = mesh.corners(index).map(|corner| (corner - point).normalize());
-            let volume = a.dot(b.cross(c));
-            2.0 * volume.atan2(1.0 + a.dot(b) + b.dot(c) + c.dot(a))
-        })
-        .sum();
-    solid_angle / (4.0 * PI)
 }

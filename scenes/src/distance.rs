@@ -1,0 +1,110 @@
+//! How far inside a body a point is.
+
+use crate::{Mesh, Shape};
+use glam::DVec3;
+use rayon::prelude::*;
+
+/// Distance from a point inside a shape to its surface, metres; not positive
+/// outside.
+#[must_use]
+pub fn clearance_m(shape: &Shape, p: DVec3) -> f64 {
+    match shape {
+        Shape::Mesh(mesh) if winding(mesh, p) < 0.5 => 0.0,
+        Shape::Mesh(mesh) => (0..mesh.triangles.len())
+            .into_par_iter()
+            .map(|index| to_triangle_m(mesh.corners(index), p))
+            .reduce(|| f64::INFINITY, f64::min),
+        Shape::Sphere { radius_m } => radius_m - p.length(),
+        Shape::Slab { thickness_m } => 0.5 * thickness_m - p.z.abs(),
+        Shape::HalfSpace => -p.y,
+        Shape::Box { half_extent_m } => (*half_extent_m - p.abs()).min_element(),
+        Shape::Cylinder { radius_m, half_height_m } => {
+            (radius_m - p.x.hypot(p.z)).min(half_height_m - p.y.abs())
+        }
+    }
+}
+
+/// How often a mesh winds around a point: the sum of its triangles' solid angles
+/// over 4π. A whole number off a closed surface, within rounding.
+///
+/// Source: Van Oosterom & Strackee, "The solid angle of a plane triangle", IEEE
+/// Transactions on Biomedical Engineering 30 (2), 1983.
+#[must_use]
+pub fn winding(mesh: &Mesh, point: DVec3) -> f64 {
+    let solid_angle: f64 = (0..mesh.triangles.len())
+        .map(|index| {
+            let [a, b, c] = mesh.corners(index).map(|p| (p - point).normalize_or_zero());
+            2.0 * a.dot(b.cross(c)).atan2(1.0 + a.dot(b) + b.dot(c) + c.dot(a))
+        })
+        .sum();
+    solid_angle / (4.0 * std::f64::consts::PI)
+}
+
+/// Distance from a point to a triangle, metres.
+#[must_use]
+pub fn to_triangle_m([a, b, c]: [DVec3; 3], p: DVec3) -> f64 {
+    let normal = (b - a).cross(c - a);
+    let is_above_inside = [(a, b), (b, c), (c, a)]
+        .iter()
+        .all(|(from, to)| normal.cross(*to - *from).dot(p - *from) >= 0.0);
+    if is_above_inside && normal != DVec3::ZERO {
+        return (p - a).dot(normal).abs() / normal.length();
+    }
+    [(a, b), (b, c), (c, a)]
+        .iter()
+        .map(|(a, b)| to_segment_m(*a, *b, p))
+        .fold(f64::INFINITY, f64::min)
+}
+
+fn to_segment_m(a: DVec3, b: DVec3, p: DVec3) -> f64 {
+    let along = b - a;
+    let length_squared = along.length_squared();
+    let share = if length_squared > 0.0 { (p - a).dot(along) / length_squared } else { 0.0 };
+    p.distance(a + along * share.clamp(0.0, 1.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::generate::{cuboid, shell, teapot};
+
+    #[test]
+    fn a_mesh_and_the_shape_it_shows_have_the_same_clearance() {
+        let half_extent_m = DVec3::new(0.4, 0.7, 1.0);
+        let mesh = Shape::Mesh(cuboid(half_extent_m));
+        let exact = Shape::Box { half_extent_m };
+        let mut random = crate::noise::SplitMix64(2);
+        for _ in 0..500 {
+            let p = DVec3::from_array([0; 3].map(|_| 2.0 * random.uniform() - 1.0));
+            let (found, expected) = (clearance_m(&mesh, p), clearance_m(&exact, p));
+            assert!((found - expected.max(0.0)).abs() < 1e-14, "{p}: {found} {expected}");
+        }
+    }
+
+    #[test]
+    fn distances_to_faces_edges_and_corners() {
+        let triangle = [DVec3::ZERO, DVec3::X, DVec3::Y];
+        for (point, distance) in [
+            (DVec3::new(0.2, 0.2, -3.0), 3.0),
+            (DVec3::new(0.5, -2.0, 0.0), 2.0),
+            (DVec3::new(4.0, 0.0, 4.0), 5.0),
+            (DVec3::ONE.with_z(0.0), 0.5f64.sqrt()),
+        ] {
+            assert!((to_triangle_m(triangle, point) - distance).abs() < 1e-15, "{point}");
+        }
+    }
+
+    /// Overlapping solids count twice, cavities not at all.
+    #[test]
+    fn windings_count_solids() {
+        let hollow = shell(8, 0.5);
+        for (x, count) in [(0.0, 0.0), (0.75, 1.0), (1.5, 0.0)] {
+            assert!((winding(&hollow, DVec3::new(x, 0.01, 0.0)) - count).abs() < 1e-12);
+        }
+        // Where the handle starts it is inside the body.
+        let pot = teapot(15);
+        let in_both = DVec3::new(-1.56 / 3.0, 2.13 / 3.0, 0.0);
+        assert!((winding(&pot, in_both) - 2.0).abs() < 1e-12);
+        assert!((winding(&pot, DVec3::new(0.0, 0.3, 0.0)) - 1.0).abs() < 1e-12);
+    }
+}
