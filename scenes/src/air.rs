@@ -34,7 +34,7 @@ pub fn air_planes(air: &Air, bounds: [DVec3; 2]) -> Vec<DAffine3> {
 pub fn bubbles(air: &Air, shape: &Shape) -> Vec<Bubble> {
     let (centre, diagonal) = centre_and_diagonal(shape.bounds());
     let radius_m = air.bubble_radius * diagonal;
-    let mut random = SplitMix64(air.seed ^ 0xb0bb_1e5);
+    let mut random = SplitMix64(air.seed ^ 0x0b0b_b1e5);
     let mut bubbles: Vec<Bubble> = Vec::new();
     if !diagonal.is_finite() || radius_m <= 0.0 {
         return bubbles;
