@@ -34,6 +34,13 @@ const fn target(name: &'static str, rgba: bool, value: &'static str) -> Target {
     }
 }
 
+impl Target {
+    /// The name as an identifier.
+    fn field(&self) -> String {
+        self.name.replace(' ', "_")
+    }
+}
+
 /// Everything the front pass can write.
 const FRONT: [Target; 5] = [
     target("front_normal", true, "vec4f(normalize(v.normal_ws), v.body)"),
@@ -49,6 +56,15 @@ const BACK: [Target; 2] = [
     target("back_depth", false, "depth_of_m(v.p_lc)"),
 ];
 
+/// What a peeling pass writes as colour: nothing. A raster pass must have a target.
+const STORED: Target = Target {
+    name: "no colour",
+    format: wgpu::TextureFormat::R8Unorm,
+    channels: 1,
+    wgsl_type: "vec4f",
+    value: "store_interface(v)",
+};
+
 /// Images that the shading pass can write.
 pub(crate) const OUTPUTS: [&str; 5] = ["radiance", "exit", "first", "hit2", "count"];
 
@@ -58,10 +74,28 @@ pub(crate) struct Surfaces {
     pub(crate) targets: Vec<Target>,
     pub(crate) mesh: Option<Shader>,
     pub(crate) analytic: Vec<(Formula, Shader)>,
-    /// Draw the sides that face away.
-    pub(crate) back: bool,
-    /// Keep the farthest instead of the nearest.
-    pub(crate) farthest: bool,
+    pub(crate) sides: Sides,
+}
+
+/// Which sides of the bodies a raster pass draws.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Sides {
+    /// Those that face the eye, nearest first.
+    Front,
+    /// Those that face away; the farthest or the nearest of them is kept.
+    Back {
+        /// Keep the farthest.
+        farthest: bool,
+    },
+    /// All of them, without a depth test.
+    All,
+}
+
+/// The passes that collect and sort every interface of a pixel.
+pub(crate) struct Peel {
+    pub(crate) count: Surfaces,
+    pub(crate) collect: Surfaces,
+    pub(crate) sort: Shader,
 }
 
 /// A frame, as far as it can be known without a GPU.
@@ -70,6 +104,7 @@ pub(crate) struct Composition {
     pub(crate) outputs: Vec<&'static str>,
     pub(crate) front: Surfaces,
     pub(crate) back: Option<Surfaces>,
+    pub(crate) peel: Option<Peel>,
 }
 
 /// How the environment is looked up.
@@ -100,6 +135,11 @@ impl Composition {
             (_, Filter::Hardware) => piece!("environment_sampler.wgsl"),
         });
         pieces.extend([piece!("front.wgsl"), piece!("back.wgsl"), piece!("shade.wgsl")]);
+        let pack =
+            if geometry.nested { piece!("pack_nested.wgsl") } else { piece!("pack_single.wgsl") };
+        let media =
+            if geometry.nested { piece!("media_nested.wgsl") } else { piece!("media_single.wgsl") };
+        pieces.extend([pack.clone(), piece!("layers.wgsl"), media, piece!("march.wgsl")]);
         pieces.push(if geometry.smooth {
             piece!("geometric_stored.wgsl")
         } else {
@@ -120,16 +160,31 @@ impl Composition {
         let front: Vec<Target> = FRONT.into_iter().filter(wanted).collect();
         let back: Vec<Target> = BACK.into_iter().filter(wanted).collect();
         let vector = vector_piece(method, settings);
-        let surfaces = |name, targets, back, farthest| {
-            Surfaces::new(name, targets, back, farthest, &camera_piece, &vector, geometry)
-        };
+        let mut head = vec![piece!("frame.wgsl"), camera_piece];
+        head.extend(vector);
+        let surfaces = |name, targets, sides| Surfaces::new(name, targets, sides, &head, geometry);
         let farthest = settings.word_if_any("back_select") != Some("nearest");
+        let peel = if shade.uses(&["shade"], "slot_counts") {
+            let sort = Shader::link(&[piece!("frame.wgsl"), piece!("peel_sort.wgsl")])?;
+            let store = |name, store: Vec<Piece>| {
+                let head: Vec<Piece> = head.iter().cloned().chain(store).collect();
+                Surfaces::new(name, vec![STORED], Sides::All, &head, geometry)
+            };
+            Some(Peel {
+                count: store("count layers", vec![piece!("peel_count.wgsl")])?,
+                collect: store("collect layers", vec![pack, piece!("peel_slots.wgsl")])?,
+                sort,
+            })
+        } else {
+            None
+        };
         Ok(Self {
-            front: surfaces("front", front, false, false)?,
+            front: surfaces("front", front, Sides::Front)?,
+            peel,
             back: if back.is_empty() {
                 None
             } else {
-                Some(surfaces("back", back, true, farthest)?)
+                Some(surfaces("back", back, Sides::Back { farthest })?)
             },
             shade,
             outputs,
@@ -230,19 +285,12 @@ impl Surfaces {
     fn new(
         name: &'static str,
         targets: Vec<Target>,
-        back: bool,
-        farthest: bool,
-        camera: &Piece,
-        vector: &[Piece],
+        sides: Sides,
+        head: &[Piece],
         geometry: &Geometry,
     ) -> Result<Self, Error> {
-        let mut head = vec![piece!("frame.wgsl"), camera.clone()];
-        head.extend_from_slice(vector);
-        let link = |tail: Vec<Piece>| {
-            let mut pieces = head.clone();
-            pieces.extend(tail);
-            Shader::link(&pieces)
-        };
+        let link =
+            |tail: Vec<Piece>| Shader::link(&head.iter().cloned().chain(tail).collect::<Vec<_>>());
         let generated = targets_piece(&targets);
         let mesh = if geometry.corners.is_empty() {
             None
@@ -255,15 +303,16 @@ impl Surfaces {
         let analytic = formulas
             .into_iter()
             .map(|formula| {
-                let shader = link(vec![
-                    analytic_piece(&targets),
+                let depth = sides != Sides::All;
+                let pieces = vec![
+                    analytic_piece(&targets, depth),
                     formula_piece(formula),
                     generated.clone(),
-                ])?;
-                Ok((formula, shader))
+                ];
+                Ok((formula, link(pieces)?))
             })
             .collect::<Result<_, Error>>()?;
-        Ok(Self { name, targets, mesh, analytic, back, farthest })
+        Ok(Self { name, targets, mesh, analytic, sides })
     }
 }
 
@@ -280,7 +329,9 @@ fn targets_piece(targets: &[Target]) -> Piece {
     let fields: String = targets
         .iter()
         .enumerate()
-        .map(|(i, target)| format!("    @location({i}) {}: {},\n", target.name, target.wgsl_type))
+        .map(|(i, target)| {
+            format!("    @location({i}) {}: {},\n", target.field(), target.wgsl_type)
+        })
         .collect();
     let values: Vec<_> = targets.iter().map(|target| target.value).collect();
     Piece::new(
@@ -292,14 +343,20 @@ fn targets_piece(targets: &[Target]) -> Piece {
     )
 }
 
-fn analytic_piece(targets: &[Target]) -> Piece {
+fn analytic_piece(targets: &[Target], depth: bool) -> Piece {
     let fields: String = targets
         .iter()
         .enumerate()
-        .map(|(i, target)| format!("    @location({i}) {}: {},\n", target.name, target.wgsl_type))
+        .map(|(i, target)| {
+            format!("    @location({i}) {}: {},\n", target.field(), target.wgsl_type)
+        })
         .collect();
-    let values: Vec<_> = targets.iter().map(|target| format!("out.{}", target.name)).collect();
+    let values: Vec<_> = targets.iter().map(|target| format!("out.{}", target.field())).collect();
+    let (depth_field, depth_value) =
+        if depth { ("@builtin(frag_depth) depth: f32,", "clip.z / clip.w, ") } else { ("", "") };
     let text = include_str!("shaders/raster_analytic.wgsl")
+        .replace("ANALYTIC_DEPTH_FIELD", depth_field)
+        .replace("ANALYTIC_DEPTH_VALUE", depth_value)
         .replace("ANALYTIC_FIELDS", fields.trim_end())
         .replace("ANALYTIC_VALUES", &values.join(", "));
     Piece::new("raster_analytic.wgsl", text)

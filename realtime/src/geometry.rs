@@ -52,6 +52,8 @@ pub(crate) struct Geometry {
     pub(crate) smooth: bool,
     /// Some body absorbs.
     pub(crate) absorbs: bool,
+    /// Bodies differ in medium or priority.
+    pub(crate) nested: bool,
     /// For each triangle its body's first corner and vertex numbers, so that
     /// thickness can be filled in when a method reads it.
     vertices: Vec<[u32; 3]>,
@@ -87,19 +89,23 @@ impl Geometry {
             radius_m: radius_m.max(f64::MIN_POSITIVE),
             smooth: false,
             absorbs: false,
+            nested: false,
             vertices: Vec::new(),
         };
-        for object in solids {
-            geometry.add(scene, object, time_s);
+        let solids_by_priority = numbered(&solids);
+        geometry.nested = solids_by_priority.iter().any(|solid| *solid > 0);
+        for (object, solid) in solids.iter().zip(solids_by_priority) {
+            geometry.add(scene, object, solid, time_s);
         }
         Ok(geometry)
     }
 
-    fn add(&mut self, scene: &Scene, object: &Object, time_s: f64) {
+    fn add(&mut self, scene: &Scene, object: &Object, solid: u32, time_s: f64) {
         let Some(medium) = scene.medium_of(object) else { return };
         self.absorbs |= medium.absorbs();
         self.bodies.push(Body {
             eta: medium.eta.get() as f32,
+            solid,
             absorption_per_m: medium.absorption_per_m.as_vec3(),
         });
         let number = self.bodies.len() as u32;
@@ -157,6 +163,20 @@ impl Geometry {
         }
         self.draws.push(Draw::Triangles(start..self.corners.len() as u32));
     }
+}
+
+/// Numbers by falling priority, then medium; bodies of one medium and priority
+/// are one solid.
+fn numbered(solids: &[&Object]) -> Vec<u32> {
+    let key = |object: &&Object| match object.surface {
+        Surface::Dielectric { medium, priority } => (-i64::from(priority), medium),
+        _ => (i64::MAX, scenes::MediumId::SURROUNDINGS),
+    };
+    let mut kinds: Vec<_> = solids.iter().map(key).collect();
+    kinds.sort();
+    kinds.dedup();
+    let number = |object| kinds.iter().position(|kind| *kind == key(object)).unwrap_or(0);
+    solids.iter().map(|object| number(object) as u32).collect()
 }
 
 /// Means of the triangles' normals, weighted by the angle at the vertex.

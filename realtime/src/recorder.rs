@@ -187,6 +187,12 @@ impl<'g> Recorder<'g> {
         draw(&mut pass);
     }
 
+    /// Fills a buffer with zeros.
+    pub(crate) fn clear(&mut self, name: &str, buffer: &wgpu::Buffer) {
+        self.begin(name);
+        self.encoder.clear_buffer(buffer, 0, None);
+    }
+
     pub(crate) fn compute(&mut self, name: &str, work: impl FnOnce(&mut wgpu::ComputePass<'_>)) {
         let query = self.begin(name);
         let mut pass = self.encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {

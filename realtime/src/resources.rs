@@ -49,6 +49,13 @@ impl Resources {
         }
     }
 
+    pub(crate) fn stored(&self, name: &str) -> &wgpu::Buffer {
+        match self.0.get(name) {
+            Some(Resource::Buffer(buffer)) => buffer,
+            _ => panic!("there is no buffer {name}"),
+        }
+    }
+
     pub(crate) fn image(&self, name: &str) -> Option<&wgpu::Texture> {
         match self.0.get(name) {
             Some(Resource::Texture(texture, _)) => Some(texture),

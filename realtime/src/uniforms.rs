@@ -20,12 +20,14 @@ pub(crate) struct Frame {
     pub(crate) resolution_px: Vec2,
     pub(crate) eta_outside: f32,
     pub(crate) radius_m: f32,
+    pub(crate) layer_capacity: u32,
 }
 
 /// Mirrors `Body` in frame.wgsl.
 #[derive(Clone, Copy, Debug, Default, ShaderType)]
 pub(crate) struct Body {
     pub(crate) eta: f32,
+    pub(crate) solid: u32,
     pub(crate) absorption_per_m: Vec3,
 }
 
@@ -80,6 +82,7 @@ impl Frame {
             resolution_px: Vec2::from_array(resolution_px.map(|n| n as f32)),
             eta_outside: eta_outside as f32,
             radius_m: radius_m as f32,
+            layer_capacity: 0,
         }
     }
 }

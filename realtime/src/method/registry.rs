@@ -127,7 +127,44 @@ pub static METHODS: &[Method] = &[
         ],
         pieces: two_interface_pieces,
     },
+    Method {
+        id: "multi-paper",
+        alias: "M4p",
+        title: "march through peeled layers, as published",
+        about: "Walks from layer to layer by number, with the repairs without which the printed listing does not run. Wrong where the ray crosses an interface sideways: walls of shells, bubbles.",
+        bibtex: MA_BIBTEX,
+        parameters: &[PROBE_DIV, BINARY_STEPS, MAX_STEPS, MAX_EVENTS, MULTI_FRESNEL],
+        pieces: |settings| Ok(vec![march_constants(settings, false), file!("multi_paper.wgsl")]),
+    },
+    Method {
+        id: "multi",
+        alias: "M4r",
+        title: "march through peeled layers, medium by winding",
+        about: "As multi-paper, but an interface is where the medium changes, counted from the layers in front. First order in the resolution of the layers; rays that turn sideways find no layer to hit.",
+        bibtex: MA_BIBTEX,
+        parameters: &[PROBE_DIV, BINARY_STEPS, MAX_STEPS, MAX_EVENTS, TIR, MULTI_FRESNEL],
+        pieces: |settings| Ok(vec![march_constants(settings, true), file!("multi.wgsl")]),
+    },
 ];
+
+const MA_BIBTEX: &str = "@misc{MaXiaoYang,\n  author = {Lei Ma and Shuangjiu Xiao and Xubo Yang},\n  title = {Multi-interfaces based Refractive Rendering},\n  note = {Shanghai Jiao Tong University}\n}";
+const PROBE_DIV: Parameter =
+    number("linear_probe_div", 8.0, 1.0, 64.0, "", "steps per gap between two layers");
+const BINARY_STEPS: Parameter =
+    number("binary_steps", 6.0, 0.0, 16.0, "", "halvings of the step that crossed an interface");
+const MAX_STEPS: Parameter =
+    number("max_steps", 64.0, 1.0, 4096.0, "", "steps between two interfaces");
+const MAX_EVENTS: Parameter = number("max_events", 12.0, 1.0, 64.0, "", "interfaces of one chain");
+const TIR: Parameter = choice(
+    "tir",
+    &["clamp", "reflect"],
+    "total reflection: leave along the tangent, or reflect up to four times",
+);
+const MULTI_FRESNEL: Parameter = choice(
+    "fresnel",
+    &["none", "schlick", "exact"],
+    "share of the reflection at the first surface; the paper has none",
+);
 
 const DX7_BIBTEX: &str = "@misc{FakeRefraction2000,\n  title = {Approximating Refraction: Fake Refraction in DX7},\n  year = {2000},\n  note = {cube maps indexed by R = (1 - a)(N.E)N - E}\n}";
 
@@ -197,4 +234,22 @@ fn two_interface_pieces(settings: &Settings) -> Result<Vec<Piece>, Error> {
         _ => file!("back_bilinear.wgsl"),
     };
     Ok(vec![Piece::new("guessed distance", guess), filter, file!("two_interface.wgsl")])
+}
+
+fn march_constants(settings: &Settings, winding: bool) -> Piece {
+    let mut text = format!(
+        "const LINEAR_PROBE_DIV: f32 = {:?};\nconst BINARY_STEPS: u32 = {}u;\n\
+         const MAX_STEPS: u32 = {}u;\nconst MAX_EVENTS: u32 = {}u;\n",
+        settings.number("linear_probe_div"),
+        settings.number("binary_steps"),
+        settings.number("max_steps"),
+        settings.number("max_events"),
+    );
+    if winding {
+        let reflect = settings.word("tir") == "reflect";
+        text += &format!(
+            "const REFLECT_TOTAL: bool = {reflect};\nconst MAX_TOTAL_REFLECTIONS: u32 = 4u;\n"
+        );
+    }
+    Piece::new("march constants", text)
 }

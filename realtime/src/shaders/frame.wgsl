@@ -13,10 +13,12 @@ struct Frame {
     resolution_px: vec2f,
     eta_outside: f32,
     radius_m: f32,              // of a ball about the local origin around all bodies
+    layer_capacity: u32,        // interfaces per pixel that are kept
 }
 
 struct Body {
     eta: f32,
+    solid: u32,                 // same number: same medium and priority; falling priority
     absorption_per_m: vec3f,
 }
 

@@ -20,6 +20,7 @@ struct Met {
 }
 
 struct Varyings {
+    clip: vec4f,                // xy: pixel position
     p_lc: vec3f,
     normal_ws: vec3f,
     geometric_ws: vec3f,
@@ -34,7 +35,7 @@ fn analytic_vertex(@builtin(vertex_index) i: u32) -> @builtin(position) vec4f {
 }
 
 struct AnalyticTargets {
-    @builtin(frag_depth) depth: f32,
+    ANALYTIC_DEPTH_FIELD
 ANALYTIC_FIELDS
 }
 
@@ -58,6 +59,6 @@ fn analytic_fragment(@builtin(position) at: vec4f) -> AnalyticTargets {
     let thickness_m = inward_m(p_object, n_object) / scale;
     let vector_ws = vertex_vector(d_ws, normal_ws, u32(analytic.body + 0.5) - 1u);
     let clip = frame.clip_from_lc * vec4f(p_lc, 1.0);
-    let out = targets(Varyings(p_lc, normal_ws, normal_ws, analytic.body, thickness_m, vector_ws));
-    return AnalyticTargets(clip.z / clip.w, ANALYTIC_VALUES);
+    let out = targets(Varyings(at, p_lc, normal_ws, normal_ws, analytic.body, thickness_m, vector_ws));
+    return AnalyticTargets(ANALYTIC_DEPTH_VALUEANALYTIC_VALUES);
 }

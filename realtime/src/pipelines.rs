@@ -1,0 +1,288 @@
+//! Pipelines made from shaders: raster passes over the bodies and compute passes
+//! over the pixels. Layouts come from the WGSL.
+
+use crate::composition::{Sides, Surfaces};
+use crate::frame::Viewed;
+use crate::geometry::{Corner, Draw, Formula, Geometry};
+use crate::recorder::{Allocator, Recorder};
+use crate::resources::Resources;
+use crate::uniforms::{self, Analytic};
+use crate::wgsl::Shader;
+use crate::{Error, Gpu};
+use std::mem::size_of;
+use std::ops::Range;
+use wgpu::TextureUsages;
+
+/// What every pass of a frame is made with.
+pub(crate) struct Maker<'a> {
+    pub(crate) gpu: &'a Gpu,
+    pub(crate) allocator: &'a Allocator<'a>,
+    geometry: &'a Geometry,
+    corners: Option<wgpu::Buffer>,
+    resolution_px: [u32; 2],
+}
+
+/// A raster pass over all bodies.
+pub(crate) struct DrawnSurfaces {
+    name: &'static str,
+    targets: Vec<&'static str>,
+    depth: Option<(wgpu::TextureView, f32)>,
+    mesh: Option<(wgpu::RenderPipeline, wgpu::BindGroup, wgpu::Buffer)>,
+    analytic: Vec<(wgpu::RenderPipeline, wgpu::BindGroup)>,
+    triangles: Vec<Range<u32>>,
+}
+
+/// A compute pass over all pixels.
+pub(crate) struct OverPixels {
+    pipeline: wgpu::ComputePipeline,
+    bindings: wgpu::BindGroup,
+}
+
+impl OverPixels {
+    pub(crate) fn record(&self, recorder: &mut Recorder<'_>, name: &str, resolution_px: [u32; 2]) {
+        recorder.compute(name, |pass| {
+            pass.set_pipeline(&self.pipeline);
+            pass.set_bind_group(0, &self.bindings, &[]);
+            let [width, height] = resolution_px.map(|n| n.div_ceil(8));
+            pass.dispatch_workgroups(width, height, 1);
+        });
+    }
+}
+
+impl DrawnSurfaces {
+    pub(crate) fn record(&self, recorder: &mut Recorder<'_>, resources: &Resources) {
+        let clear = wgpu::Color::TRANSPARENT;
+        let colours: Vec<_> =
+            self.targets.iter().map(|name| (resources.view(name), clear)).collect();
+        let depth = self.depth.as_ref().map(|(view, clear)| (view, *clear));
+        recorder.raster(self.name, &colours, depth, |pass| {
+            if let Some((pipeline, bindings, corners)) = &self.mesh {
+                pass.set_pipeline(pipeline);
+                pass.set_bind_group(0, bindings, &[]);
+                pass.set_vertex_buffer(0, corners.slice(..));
+                for range in &self.triangles {
+                    pass.draw(range.clone(), 0..1);
+                }
+            }
+            for (pipeline, bindings) in &self.analytic {
+                pass.set_pipeline(pipeline);
+                pass.set_bind_group(0, bindings, &[]);
+                pass.draw(0..3, 0..1);
+            }
+        });
+    }
+}
+
+impl<'a> Maker<'a> {
+    pub(crate) fn new(
+        gpu: &'a Gpu,
+        allocator: &'a Allocator<'a>,
+        view: &Viewed<'a>,
+    ) -> Result<Self, Error> {
+        let geometry = view.geometry;
+        let corners = if geometry.corners.is_empty() {
+            None
+        } else {
+            let bytes = bytemuck::cast_slice(&geometry.corners);
+            Some(allocator.filled("corners", bytes, wgpu::BufferUsages::VERTEX)?)
+        };
+        Ok(Self { gpu, allocator, geometry, corners, resolution_px: view.resolution_px })
+    }
+
+    /// A compute pass whose entry point has the given name.
+    pub(crate) fn over_pixels(
+        &self,
+        shader: &Shader,
+        entry_point: &str,
+        resources: &Resources,
+    ) -> Result<OverPixels, Error> {
+        let pipeline = self.gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some(entry_point),
+            layout: None,
+            module: &self.module(shader),
+            entry_point: Some(entry_point),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            cache: None,
+        });
+        let layout = pipeline.get_bind_group_layout(0);
+        let bindings = resources.bind(self.gpu, shader, &[entry_point], &layout, &[])?;
+        Ok(OverPixels { pipeline, bindings })
+    }
+
+    /// A raster pass with its targets.
+    pub(crate) fn surfaces(
+        &self,
+        surfaces: &Surfaces,
+        resources: &mut Resources,
+    ) -> Result<DrawnSurfaces, Error> {
+        let size = [self.resolution_px[0], self.resolution_px[1], 1];
+        let usage = TextureUsages::RENDER_ATTACHMENT
+            | TextureUsages::TEXTURE_BINDING
+            | TextureUsages::COPY_SRC;
+        for target in &surfaces.targets {
+            if resources.image(target.name).is_none() {
+                let texture = self.allocator.texture(target.name, size, target.format, usage)?;
+                resources.texture(target.name, texture);
+            }
+        }
+        let mut drawn = DrawnSurfaces {
+            name: surfaces.name,
+            targets: surfaces.targets.iter().map(|target| target.name).collect(),
+            depth: self.depth_test(surfaces, size)?,
+            mesh: self.mesh(surfaces, resources)?,
+            analytic: Vec::new(),
+            triangles: Vec::new(),
+        };
+        for draw in &self.geometry.draws {
+            match draw {
+                Draw::Triangles(range) => drawn.triangles.push(range.clone()),
+                Draw::Analytic(formula, placed, size_m, body) => {
+                    let far_sides: &[bool] = match surfaces.sides {
+                        Sides::Front => &[false],
+                        Sides::Back { .. } => &[true],
+                        Sides::All => &[false, true],
+                    };
+                    for far in far_sides {
+                        let uniform =
+                            Analytic::new(placed, self.geometry.centre, *size_m, *body, *far);
+                        drawn
+                            .analytic
+                            .extend(self.analytic(surfaces, resources, *formula, &uniform)?);
+                    }
+                }
+            }
+        }
+        Ok(drawn)
+    }
+
+    fn depth_test(
+        &self,
+        surfaces: &Surfaces,
+        size: [u32; 3],
+    ) -> Result<Option<(wgpu::TextureView, f32)>, Error> {
+        let clear = match surfaces.sides {
+            Sides::All => return Ok(None),
+            Sides::Back { farthest: true } => 0.0,
+            _ => 1.0,
+        };
+        let name = format!("{} depth test", surfaces.name);
+        let format = wgpu::TextureFormat::Depth32Float;
+        let depth =
+            self.allocator.texture(&name, size, format, TextureUsages::RENDER_ATTACHMENT)?;
+        Ok(Some((depth.create_view(&wgpu::TextureViewDescriptor::default()), clear)))
+    }
+
+    fn mesh(
+        &self,
+        surfaces: &Surfaces,
+        resources: &Resources,
+    ) -> Result<Option<(wgpu::RenderPipeline, wgpu::BindGroup, wgpu::Buffer)>, Error> {
+        let (Some(shader), Some(corners)) = (&surfaces.mesh, &self.corners) else {
+            return Ok(None);
+        };
+        let pipeline = self.raster_pipeline(surfaces, shader, true);
+        let layout = pipeline.get_bind_group_layout(0);
+        let entries = ["mesh_vertex", "mesh_fragment"];
+        let bindings = resources.bind(self.gpu, shader, &entries, &layout, &[])?;
+        Ok(Some((pipeline, bindings, corners.clone())))
+    }
+
+    fn analytic(
+        &self,
+        surfaces: &Surfaces,
+        resources: &Resources,
+        formula: Formula,
+        uniform: &Analytic,
+    ) -> Result<Option<(wgpu::RenderPipeline, wgpu::BindGroup)>, Error> {
+        let Some((_, shader)) = surfaces.analytic.iter().find(|(known, _)| *known == formula)
+        else {
+            return Ok(None);
+        };
+        let pipeline = self.raster_pipeline(surfaces, shader, false);
+        let bytes = uniforms::bytes_of(uniform);
+        let buffer = self.allocator.filled("analytic", &bytes, wgpu::BufferUsages::UNIFORM)?;
+        let layout = pipeline.get_bind_group_layout(0);
+        let entries = ["analytic_vertex", "analytic_fragment"];
+        let own = [("analytic", &buffer)];
+        Ok(Some((pipeline, resources.bind(self.gpu, shader, &entries, &layout, &own)?)))
+    }
+
+    fn module(&self, shader: &Shader) -> wgpu::ShaderModule {
+        self.gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: None,
+            source: wgpu::ShaderSource::Wgsl(shader.text.as_str().into()),
+        })
+    }
+
+    fn raster_pipeline(
+        &self,
+        surfaces: &Surfaces,
+        shader: &Shader,
+        mesh: bool,
+    ) -> wgpu::RenderPipeline {
+        let module = self.module(shader);
+        let attributes = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x3, 3 => Float32, 4 => Float32];
+        let buffers = [Some(wgpu::VertexBufferLayout {
+            array_stride: size_of::<Corner>() as u64,
+            step_mode: wgpu::VertexStepMode::Vertex,
+            attributes: &attributes,
+        })];
+        let all = surfaces.sides == Sides::All;
+        let targets: Vec<_> = surfaces
+            .targets
+            .iter()
+            .map(|target| {
+                let write_mask =
+                    if all { wgpu::ColorWrites::empty() } else { wgpu::ColorWrites::ALL };
+                Some(wgpu::ColorTargetState { format: target.format, blend: None, write_mask })
+            })
+            .collect();
+        let options = wgpu::PipelineCompilationOptions::default;
+        self.gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(surfaces.name),
+            layout: None,
+            vertex: wgpu::VertexState {
+                module: &module,
+                entry_point: Some(if mesh { "mesh_vertex" } else { "analytic_vertex" }),
+                compilation_options: options(),
+                buffers: if mesh { &buffers } else { &[] },
+            },
+            primitive: wgpu::PrimitiveState {
+                cull_mode: culled(surfaces.sides).filter(|_| mesh),
+                ..Default::default()
+            },
+            depth_stencil: compare(surfaces.sides).map(|compare| wgpu::DepthStencilState {
+                format: wgpu::TextureFormat::Depth32Float,
+                depth_write_enabled: Some(true),
+                depth_compare: Some(compare),
+                stencil: wgpu::StencilState::default(),
+                bias: wgpu::DepthBiasState::default(),
+            }),
+            multisample: wgpu::MultisampleState::default(),
+            fragment: Some(wgpu::FragmentState {
+                module: &module,
+                entry_point: Some(if mesh { "mesh_fragment" } else { "analytic_fragment" }),
+                compilation_options: options(),
+                targets: &targets,
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    }
+}
+
+fn culled(sides: Sides) -> Option<wgpu::Face> {
+    match sides {
+        Sides::Front => Some(wgpu::Face::Back),
+        Sides::Back { .. } => Some(wgpu::Face::Front),
+        Sides::All => None,
+    }
+}
+
+fn compare(sides: Sides) -> Option<wgpu::CompareFunction> {
+    match sides {
+        Sides::Back { farthest: true } => Some(wgpu::CompareFunction::Greater),
+        Sides::Front | Sides::Back { farthest: false } => Some(wgpu::CompareFunction::Less),
+        Sides::All => None,
+    }
+}

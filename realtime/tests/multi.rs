@@ -1,0 +1,155 @@
+//! Marching through layers against exact chains through nested balls: the share
+//! of pixels within one degree and the mean angle, over pixels whose exact chain
+//! meets no total reflection.
+
+#![allow(clippy::unwrap_used, reason = "a failing test may panic")]
+
+use glam::{DAffine3, DVec2, DVec3};
+use realtime::{Filter, Gpu, Request, render};
+use scenes::scene::{Judgement, Normals, Sequence, Source};
+use scenes::{Camera, Environment, Eta, LayerName, Medium, MediumId, Object, Projection};
+use scenes::{Scene, Shape, Surface, View};
+use std::sync::Arc;
+
+/// A ball of radius 1 about the origin, of glass, with at most one hole.
+struct Body {
+    eta: f64,
+    hole: Option<(DVec3, f64)>,
+}
+
+fn scene(body: &Body, size_px: u32) -> Scene {
+    let ball = |name: &str, centre, radius_m, medium, priority| Object {
+        name: name.to_owned(),
+        shape: Arc::new(Shape::Sphere { radius_m }),
+        surface: Surface::Dielectric { medium: MediumId(medium), priority },
+        world_from_object: DAffine3::from_translation(centre),
+        normals: Normals::Smooth,
+        motion: None,
+        deform: None,
+        bump: None,
+        crack: None,
+        air: None,
+    };
+    let mut objects = vec![ball("glass", DVec3::ZERO, 1.0, 1, 0)];
+    objects.extend(body.hole.map(|(centre, radius_m)| ball("hole", centre, radius_m, 0, 1)));
+    Scene {
+        name: "nested".to_owned(),
+        title: "Nested balls".to_owned(),
+        source: Source::default(),
+        camera: Camera {
+            eye: DVec3::new(0.0, 0.0, 4.0),
+            target: DVec3::ZERO,
+            up: DVec3::Y,
+            projection: Projection::Orthographic { height_m: 2.1 },
+            resolution_px: [size_px, size_px],
+        },
+        environment: Environment::Uniform(DVec3::ONE),
+        media: vec![Medium::vacuum(), Medium::plain("glass", Eta::try_from(body.eta).unwrap())],
+        objects,
+        lights: vec![],
+        sequence: Sequence { frames: 1, seconds_per_frame: 1.0 },
+        judgement: Judgement::default(),
+        warnings: vec![],
+    }
+}
+
+/// Exit direction of the chain that always transmits; `None` where it misses
+/// the ball or is totally reflected.
+fn exact(body: &Body, mut origin: DVec3, mut d: DVec3) -> Option<DVec3> {
+    let mut balls = vec![(DVec3::ZERO, 1.0)];
+    balls.extend(body.hole);
+    let mut inside = vec![false; balls.len()];
+    let mut events = 0;
+    loop {
+        let hits = balls.iter().enumerate().filter_map(|(i, (centre, radius))| {
+            let o = origin - *centre;
+            let b = o.dot(d);
+            let h_2 = radius * radius - (o - b * d).length_squared();
+            let t = if inside[i] { -b + h_2.max(0.0).sqrt() } else { -b - h_2.max(0.0).sqrt() };
+            (h_2 > 0.0 && (inside[i] || t > 1e-9)).then_some((t, i))
+        });
+        let Some((t, i)) = hits.min_by(|a, b| a.0.total_cmp(&b.0)) else {
+            return (events > 0).then_some(d);
+        };
+        let glass = |inside: &[bool]| inside[0] && !inside.get(1).copied().unwrap_or(false);
+        let eta_of = |glass: bool| if glass { body.eta } else { 1.0 };
+        let eta_i = eta_of(glass(&inside));
+        inside[i] = !inside[i];
+        let eta_t = eta_of(glass(&inside));
+        origin += t * d;
+        let outward = (origin - balls[i].0).normalize();
+        let n = if d.dot(outward) < 0.0 { outward } else { -outward };
+        let (eta, c) = (eta_i / eta_t, -d.dot(n));
+        let k = 1.0 - eta * eta * (1.0 - c * c);
+        if k < 0.0 {
+            return None;
+        }
+        d = (eta * d + (eta * c - k.sqrt()) * n).normalize();
+        events += 1;
+    }
+}
+
+/// Share of pixels within one degree, and the mean angle in degrees.
+fn errors(gpu: &Gpu, body: &Body, size_px: u32, method: &str) -> (f64, f64) {
+    let scene = scene(body, size_px);
+    let request = Request {
+        view: View {
+            resolution_px: [size_px, size_px],
+            positions_per_axis: 1,
+            frame: 0,
+            layers: vec![LayerName::Exit],
+        },
+        method: method.to_owned(),
+        parameters: [].into(),
+        filter: Filter::Manual,
+        timing: None,
+    };
+    let rendering = render(gpu, &scene, &request).unwrap();
+    let layer = rendering.layers.get(&LayerName::Exit).unwrap();
+    let (mut within, mut sum, mut count) = (0.0, 0.0, 0.0);
+    for (index, found) in layer.data.chunks_exact(3).enumerate() {
+        let pixel = [index as u32 % size_px, index as u32 / size_px].map(|i| f64::from(i) + 0.5);
+        let ray = scene.camera.ray_through(DVec2::from_array(pixel));
+        let found = DVec3::from_slice(found);
+        let Some(expected) = exact(body, ray.origin, ray.direction) else { continue };
+        if found == DVec3::ZERO {
+            continue;
+        }
+        let angle = expected.cross(found).length().atan2(expected.dot(found)).to_degrees();
+        within += f64::from(u8::from(angle < 1.0));
+        sum += angle;
+        count += 1.0;
+    }
+    (within / count, sum / count)
+}
+
+const SHELL: Option<(DVec3, f64)> = Some((DVec3::ZERO, 0.8));
+const THIN: Option<(DVec3, f64)> = Some((DVec3::ZERO, 0.97));
+const BUBBLE: Option<(DVec3, f64)> = Some((DVec3::new(0.3, 0.2, 0.1), 0.35));
+
+/// Shares within 0.03 and means within 20 % of an independent prototype's.
+#[test]
+fn marching_reaches_what_the_prototype_reached() {
+    let gpu = Gpu::open(None).unwrap();
+    let cases = [
+        ("ball", 1.2, None, 256, (0.990, 0.11), (0.990, 0.11)),
+        ("ball", 1.5, None, 256, (0.981, 0.21), (0.982, 0.20)),
+        ("shell", 1.2, SHELL, 256, (0.645, 9.2), (0.908, 0.64)),
+        ("shell", 1.5, SHELL, 256, (0.631, 7.5), (0.837, 1.02)),
+        ("thin shell", 1.2, THIN, 256, (0.894, 1.2), (0.888, 0.53)),
+        ("thin shell", 1.5, THIN, 256, (0.831, 2.1), (0.817, 1.01)),
+        ("bubble", 1.2, BUBBLE, 256, (0.779, 5.9), (0.966, 0.27)),
+        ("bubble", 1.5, BUBBLE, 256, (0.676, 14.6), (0.940, 0.57)),
+    ];
+    let mut wrong = Vec::new();
+    for (name, eta, hole, size_px, paper, winding) in cases {
+        for (method, expected) in [("multi-paper", paper), ("multi", winding)] {
+            let found = errors(&gpu, &Body { eta, hole }, size_px, method);
+            println!("{name} {eta} {method}: {found:.3?}, prototype {expected:?}");
+            if (found.0 - expected.0).abs() > 0.03 || (found.1 / expected.1 - 1.0).abs() > 0.2 {
+                wrong.push(format!("{name} {eta} {method}: {found:.3?} instead of {expected:?}"));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
