@@ -46,6 +46,11 @@ impl Frame {
         self.shade.record(recorder, "shade", self.resolution_px);
     }
 
+    /// Layers per pixel that were counted, if any are collected.
+    pub(crate) fn layers(&self) -> Option<u32> {
+        self.peel.as_ref().map(|peel| peel.capacity)
+    }
+
     /// Makes pipelines and memory.
     pub(crate) fn new(
         gpu: &Gpu,

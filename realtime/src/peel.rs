@@ -7,7 +7,7 @@ use crate::pipelines::{DrawnSurfaces, Maker, OverPixels};
 use crate::recorder::Recorder;
 use crate::resources::Resources;
 use crate::{Error, readback};
-use wgpu::BufferUsages;
+use wgpu::{BufferUsages, TextureUsages};
 
 /// Most layers that are kept; what lies behind is flagged.
 pub(crate) const MAX_LAYERS: u32 = 32;
@@ -16,6 +16,8 @@ pub(crate) const MAX_LAYERS: u32 = 32;
 pub(crate) struct Peeled {
     collect: DrawnSurfaces,
     sort: OverPixels,
+    /// Layers per pixel that are kept.
+    pub(crate) capacity: u32,
 }
 
 impl Peeled {
@@ -38,25 +40,17 @@ impl Peeled {
         let bytes = readback::buffer_bytes(maker.gpu, resources.stored("slot_counts"), 4 * pixels)?;
         let most = bytemuck::pod_collect_to_vec::<u8, u32>(&bytes).into_iter().max().unwrap_or(0);
         let capacity = most.clamp(2, MAX_LAYERS);
-        let slots = 4 * pixels * u64::from(capacity);
-        let allowed = maker.gpu.device.limits().max_storage_buffer_binding_size;
-        if slots > allowed {
-            return Err(Error::Limit {
-                what: format!("{capacity} layers of {pixels} pixels"),
-                needed: slots,
-                adapter: maker.gpu.info().name.clone(),
-                allowed,
-                advice: "lower the resolution or the number of positions per pixel".to_owned(),
-            });
-        }
+        let size = [view.resolution_px[0], view.resolution_px[1], capacity];
+        let usage = TextureUsages::STORAGE_BINDING | TextureUsages::TEXTURE_BINDING;
         for name in ["slot_depths", "slot_normals"] {
-            let buffer = maker.allocator.buffer(name, slots, BufferUsages::STORAGE)?;
-            resources.buffer(name, buffer);
+            let format = wgpu::TextureFormat::R32Uint;
+            let texture = maker.allocator.texture(name, size, format, usage)?;
+            resources.texture_as(name, texture, wgpu::TextureViewDimension::D2Array);
         }
         frame::upload_numbers(maker.allocator, view, capacity, resources)?;
         let collect = maker.surfaces(&peel.collect, resources)?;
         let sort = maker.over_pixels(&peel.sort, "peel_sort", resources)?;
-        Ok(Self { collect, sort })
+        Ok(Self { collect, sort, capacity })
     }
 
     pub(crate) fn record(

@@ -23,15 +23,17 @@ pub fn plan(scene: &Scene, request: &Request) -> Result<Plan, Error> {
     let outputs = render::outputs(method, request)?;
     let composition =
         Composition::new(method, &settings, scene, &camera, &geometry, request, outputs)?;
-    Ok(of(&composition, scene, &geometry, request))
+    Ok(of(&composition, scene, &geometry, request, None))
 }
 
-/// The plan of a composition.
+/// The plan of a composition. The number of layers is counted on the GPU; before
+/// that, the bytes of one layer are stated.
 pub(crate) fn of(
     composition: &Composition,
     scene: &Scene,
     geometry: &Geometry,
     request: &Request,
+    layers: Option<u32>,
 ) -> Plan {
     let mut plan = Plan::default();
     let k = request.view.positions_per_axis;
@@ -71,6 +73,21 @@ pub(crate) fn of(
     } else {
         let bytes = pixels * (16 + 4);
         plan.leave_out(Kind::Pass, "back", "the method does not read the surface behind", bytes);
+    }
+    if composition.peel.is_some() {
+        for pass in ["clear layers", "collect layers", "sort layers"] {
+            plan.passes.push(pass.to_owned());
+        }
+        let mut add =
+            |name: &str, bytes: u64| plan.buffers.push(Buffer { name: name.to_owned(), bytes });
+        add("slot_counts", 4 * pixels);
+        let suffix = if layers.is_some() { "" } else { " (per layer)" };
+        for name in ["slot_depths", "slot_normals"] {
+            add(&format!("{name}{suffix}"), 4 * pixels * u64::from(layers.unwrap_or(1)));
+        }
+    } else {
+        let reason = "the method does not look between the first and the last surface";
+        plan.leave_out(Kind::Pass, "layers", reason, 8 * pixels * 2);
     }
     plan.passes.push("shade".to_owned());
     leave_out(&mut plan, composition, scene, geometry, pixels);

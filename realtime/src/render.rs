@@ -266,7 +266,13 @@ impl Job<'_> {
             layers,
             passes,
             counters: counters.map(|(name, value)| (name.to_owned(), value)).into(),
-            plan: plan::of(&ran.composition, self.scene, self.geometry, self.request),
+            plan: plan::of(
+                &ran.composition,
+                self.scene,
+                self.geometry,
+                self.request,
+                ran.frame.layers(),
+            ),
             provenance: Provenance {
                 renderer: self.method.id.to_owned(),
                 parameters: self.settings.describe(),

@@ -145,7 +145,6 @@ fn marching_reaches_what_the_prototype_reached() {
     for (name, eta, hole, size_px, paper, winding) in cases {
         for (method, expected) in [("multi-paper", paper), ("multi", winding)] {
             let found = errors(&gpu, &Body { eta, hole }, size_px, method);
-            println!("{name} {eta} {method}: {found:.3?}, prototype {expected:?}");
             if (found.0 - expected.0).abs() > 0.03 || (found.1 / expected.1 - 1.0).abs() > 0.2 {
                 wrong.push(format!("{name} {eta} {method}: {found:.3?} instead of {expected:?}"));
             }

@@ -3,37 +3,37 @@
 // Depth is linear, metres. Layers are counted from 0.
 
 @group(0) @binding(12) var<storage, read> slot_counts: array<u32>;
-@group(0) @binding(13) var<storage, read> slot_depths: array<u32>;
-@group(0) @binding(14) var<storage, read> slot_normals: array<u32>;
+@group(0) @binding(13) var slot_depths: texture_2d_array<u32>;
+@group(0) @binding(14) var slot_normals: texture_2d_array<u32>;
 
 const EMPTY_DEPTH: f32 = 1e30;
-
-fn slot_of(pixel: vec2i, layer: u32) -> u32 {
-    let size = vec2u(frame.resolution_px);
-    return (layer * size.y + u32(pixel.y)) * size.x + u32(pixel.x);
-}
 
 fn layer_count(pixel: vec2i) -> u32 {
     if (!in_image(pixel)) {
         return 0u;
     }
-    return min(slot_counts[slot_of(pixel, 0u)], frame.layer_capacity);
+    let place = u32(pixel.y) * u32(frame.resolution_px.x) + u32(pixel.x);
+    return min(slot_counts[place], frame.layer_capacity);
 }
 
 fn layer_depth_m(pixel: vec2i, layer: u32) -> f32 {
-    return bitcast<f32>(slot_depths[slot_of(pixel, layer)]);
+    return bitcast<f32>(textureLoad(slot_depths, pixel, layer, 0).x);
+}
+
+fn layer_packed(pixel: vec2i, layer: u32) -> u32 {
+    return textureLoad(slot_normals, pixel, layer, 0).x;
 }
 
 fn layer_normal_ws(pixel: vec2i, layer: u32) -> vec3f {
-    return unpack_normal(slot_normals[slot_of(pixel, layer)]);
+    return unpack_normal(layer_packed(pixel, layer));
 }
 
 fn layer_faces_camera(pixel: vec2i, layer: u32) -> bool {
-    return unpack_faces_camera(slot_normals[slot_of(pixel, layer)]);
+    return unpack_faces_camera(layer_packed(pixel, layer));
 }
 
 fn layer_solid(pixel: vec2i, layer: u32) -> u32 {
-    return unpack_solid(slot_normals[slot_of(pixel, layer)]);
+    return unpack_solid(layer_packed(pixel, layer));
 }
 
 // How many interfaces stand in front of a depth in this pixel.
