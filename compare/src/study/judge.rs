@@ -2,7 +2,10 @@
 
 use crate::Error;
 use crate::jobs::Made;
-use crate::metric::{Candidate, Encoding, Exposures, Judgement, Mask, Reference, Selection, judge};
+use crate::metric::{
+    Candidate, Encoding, Exposures, Judgement, Mask, Measurement, Metric, Reference, Selection,
+    judge,
+};
 use crate::results::{NotDone, RESULT_SCHEMA, ResultRow, RowKind};
 use scenes::layer::flag;
 use scenes::rendering::{Pass, TimeSource};
@@ -12,6 +15,16 @@ use scenes::{LayerName, Scene};
 pub(super) struct Judge<'a> {
     truth: &'a Made,
     selection: Selection,
+}
+
+/// What was measured about an image.
+pub(super) struct Judged {
+    /// Errors, times and counts.
+    pub(super) rows: Vec<ResultRow>,
+    /// Metrics that the image does not have.
+    pub(super) left_out: Vec<NotDone>,
+    /// FLIP of each pixel, if it was measured.
+    pub(super) flip_map: Option<Vec<f64>>,
 }
 
 impl<'a> Judge<'a> {
@@ -30,20 +43,33 @@ impl<'a> Judge<'a> {
         self.selection.flip_exposures.map(|e| (e.start, e.stop, e.count as u32))
     }
 
-    /// Everything measured about an image, and the metrics it does not have.
-    /// What all its rows share comes from `common`.
-    pub(super) fn rows(
+    /// Everything measured about an image. What all its rows share comes from
+    /// `common`.
+    pub(super) fn judged(&self, made: &Made, common: &ResultRow) -> Result<Judged, Error> {
+        let Judgement { measurements, left_out, flip_map } =
+            judge(Reference(&self.truth.layers), Candidate(&made.layers), &self.selection)?;
+        Ok(Judged { rows: self.rows(&measurements, made, common), left_out, flip_map })
+    }
+
+    /// The cheap errors of an image of the exact renderer's own curve: FLIP
+    /// and SSIM would take longer than the image, and nobody plots them.
+    pub(super) fn curve_rows(
         &self,
         made: &Made,
         common: &ResultRow,
-    ) -> Result<(Vec<ResultRow>, Vec<NotDone>), Error> {
+    ) -> Result<Vec<ResultRow>, Error> {
+        let metrics = vec![Metric::RelMse, Metric::RelMseTrimmed, Metric::Bias, Metric::Rmse];
+        let selection = Selection { metrics, masks: vec![Mask::All], ..self.selection.clone() };
+        let found = judge(Reference(&self.truth.layers), Candidate(&made.layers), &selection)?;
+        Ok(self.rows(&found.measurements, made, common))
+    }
+
+    fn rows(&self, found: &[Measurement], made: &Made, common: &ResultRow) -> Vec<ResultRow> {
         let common = ResultRow { reference_id: self.truth.id.to_string(), ..common.clone() };
-        let (truth, candidate) = (Reference(&self.truth.layers), Candidate(&made.layers));
-        let Judgement { measurements, left_out, .. } = judge(truth, candidate, &self.selection)?;
-        let mut rows: Vec<_> = measurements.iter().map(|found| found.row(&common)).collect();
+        let mut rows: Vec<_> = found.iter().map(|found| found.row(&common)).collect();
         rows.extend(times(&made.facts.passes, &common));
         rows.extend(counts(made, &common));
-        Ok((rows, left_out))
+        rows
     }
 }
 

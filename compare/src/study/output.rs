@@ -3,6 +3,7 @@
 use crate::jobs::Made;
 use crate::results::{self, ResultRow, Study};
 use crate::{Error, file, report};
+use scenes::{LayerName, Layers};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -16,6 +17,13 @@ pub(super) fn copy_image(made: &Made, to: &Path) -> Result<(), Error> {
     file::replace(to, |partial| {
         fs::copy(&made.image, partial).map(|_| ()).map_err(Error::file(to, "cannot be written"))
     })
+}
+
+/// Writes the FLIP map of an image, for the report.
+pub(super) fn write_flip(to: &Path, resolution_px: [u32; 2], map: Vec<f64>) -> Result<(), Error> {
+    let mut layers = Layers::new(resolution_px);
+    layers.push(LayerName::Buffer(results::FLIP_LAYER.to_owned()), 1, map);
+    Ok(scenes::image::write_exr(to, &layers)?)
 }
 
 /// Writes the rows, the study, and the report made of them.

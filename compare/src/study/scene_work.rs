@@ -94,7 +94,7 @@ impl<'a> SceneWork<'a> {
         study.runs.push(run);
         for (job, made) in self.curve.iter().zip(curve) {
             let run = self.run(REFERENCE, made, &job.parameters());
-            rows.extend(judge.rows(made, &common(&run, made))?.0);
+            rows.extend(judge.curve_rows(made, &common(&run, made))?);
         }
         for method in &spec.methods {
             now(&format!("{}: {method}", self.scene.name));
@@ -107,9 +107,14 @@ impl<'a> SceneWork<'a> {
                 Ok(made) => {
                     let parameters = &made.facts.provenance.parameters;
                     let mut run = Run { image: place, ..self.run(method, &made, parameters) };
-                    let (found, left_out) = judge.rows(&made, &common(&run, &made))?;
-                    rows.extend(found);
-                    run.metrics_left_out = left_out;
+                    let judged = judge.judged(&made, &common(&run, &made))?;
+                    rows.extend(judged.rows);
+                    run.metrics_left_out = judged.left_out;
+                    if let Some(map) = judged.flip_map {
+                        run.flip_map = run.image.with_extension("flip.exr");
+                        let path = spec.out.join(&run.flip_map);
+                        output::write_flip(&path, made.layers.resolution_px, map)?;
+                    }
                     study.runs.push(run);
                 }
                 Err(Error::Realtime(reason)) => study.left_out.push(NotDone {
