@@ -102,7 +102,7 @@ impl Tree {
     /// the nearer one last.
     #[inline(always)]
     fn push_children(&self, line: &Line, node: &Node, low: f64, high: f64, stack: &mut Stack) {
-        let [a, b] = [0, 1].map(|i| span(line, node, i, low, high));
+        let (a, b) = (span(line, node, 0, low, high), span(line, node, 1, low, high));
         match (a, b) {
             (Some(a), Some(b)) if a <= b => {
                 stack.push(node.children[1], b);
@@ -126,17 +126,14 @@ impl Tree {
 fn span(line: &Line, node: &Node, child: usize, low: f64, high: f64) -> Option<f64> {
     let (mut near, mut far) = (low, high);
     for axis in 0..3 {
-        let inverse = line.inverse[axis];
-        let (at, to) = (node.low[child][axis], node.high[child][axis]);
-        let (at, to) = if inverse < 0.0 { (to, at) } else { (at, to) };
-        let enter = (f64::from(at) - line.origin[axis]) * inverse;
-        let leave = (f64::from(to) - line.origin[axis]) * inverse;
+        let (origin, inverse) = (line.origin[axis], line.inverse[axis]);
+        let at = (f64::from(node.low[child][axis]) - origin) * inverse;
+        let to = (f64::from(node.high[child][axis]) - origin) * inverse;
+        let (enter, leave) = if inverse < 0.0 { (to, at) } else { (at, to) };
         near = if enter > near { enter } else { near };
         far = if leave < far { leave } else { far };
     }
-    let slack = if low.is_finite() || near.is_finite() { near.abs() } else { 0.0 };
-    let slack = (slack + if far.is_finite() { far.abs() } else { 0.0 }) * (8.0 * f64::EPSILON);
-    (near - slack <= far).then_some(near - slack)
+    (near <= far + far.abs() * (16.0 * f64::EPSILON)).then_some(near)
 }
 
 /// Nodes still to visit; grows beyond its fixed part only in hostile trees.
