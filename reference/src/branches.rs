@@ -1,13 +1,12 @@
 //! The full tree of refractions and reflections below a camera ray.
 //!
-//! At every event the stronger continuation goes on and the weaker one waits on
-//! a stack, or is dropped if its weight is below the cut. So a branch normally
-//! ends in the environment, and what is lost is a small share of what was
-//! followed.
+//! At every event a policy decides what is followed; the stronger continuation
+//! goes on and the weaker one waits on a stack.
 
-use crate::flight::{End, Flight, Scratch};
+use crate::flight::{End, Event, Flight, Scratch};
 use crate::media::Media;
 use crate::optics::{Optics, reflected, transmitted};
+use crate::policy::Policy;
 use crate::tracer::Tracer;
 use crate::trapped::Memory;
 use glam::DVec3;
@@ -34,95 +33,122 @@ pub(crate) struct Sum {
     pub(crate) met: bool,
 }
 
-/// The stronger continuation may fall this far below the cut before it is
-/// dropped too.
-const FLOOR: f64 = 1.0 / 1024.0;
+/// Everything a tree is followed with.
+pub(crate) struct Climb<'a, M, P> {
+    pub(crate) optics: &'a Optics,
+    pub(crate) policy: P,
+    /// Continuations that wait, kept between trees for its memory.
+    pub(crate) waiting: &'a mut Vec<Branch<M>>,
+    pub(crate) scratch: &'a mut Scratch,
+    /// Radiance by number of interfaces, as far as asked for.
+    pub(crate) bounces: &'a mut [DVec3],
+}
 
 impl Tracer<'_> {
     /// Sums the tree below a camera ray.
-    pub(crate) fn tree<M: Media, const UNIFORM: bool, const LENGTHS: bool>(
+    pub(crate) fn tree<M: Media, P: Policy, const UNIFORM: bool, const LENGTHS: bool>(
         &self,
         flight: Flight<M>,
-        optics: &Optics,
-        cut: f64,
-        waiting: &mut Vec<Branch<M>>,
-        scratch: &mut Scratch,
+        climb: &mut Climb<'_, M, P>,
     ) -> Sum {
         let mut sum = Sum::default();
-        waiting.clear();
-        waiting.push(Branch {
-            flight,
-            weight: 1.0,
-            tint: DVec3::ONE,
-            events: 0,
-            memory: Memory::new(),
-        });
-        let interfaces = self.restriction.max_interfaces.unwrap_or(u32::MAX);
-        while let Some(mut branch) = waiting.pop() {
-            loop {
-                let end = if branch.events >= interfaces {
-                    End::Environment
-                } else {
-                    self.world.follow::<M, LENGTHS>(&branch.flight, &optics.indices, scratch)
-                };
-                if LENGTHS {
-                    branch.tint *= optics.transmittance(&scratch.pieces);
-                }
-                let light = match &end {
-                    End::Event(_) => None,
-                    End::Environment => Some(self.environment::<UNIFORM>(branch.flight.direction)),
-                    End::Opaque(crossing) => Some(self.shade(&branch.flight, crossing)),
-                };
-                sum.met |= !matches!(end, End::Environment) && branch.events == 0;
-                if let Some(light) = light {
-                    sum.radiance += light * branch.tint * branch.weight;
-                    break;
-                }
-                let End::Event(mut event) = end else { break };
-                branch.memory.prepare(&mut event);
-                let bend = optics.bend(branch.flight.direction, &event);
-                branch.events += 1;
-                scratch.counters.events += 1;
-                let present = if LENGTHS { branch.tint.max_element() } else { 1.0 };
-                if branch.events > self.restriction.max_events {
-                    sum.truncated += branch.weight * present;
-                    scratch.counters.capped += 1;
-                    break;
-                }
-                let Some(direction) = bend.transmitted else {
-                    branch.flight = reflected(&event, &bend);
-                    if let Some((flight, tint)) = branch.memory.total_reflection(optics) {
-                        (branch.flight, branch.tint) = (flight, tint);
-                    }
-                    continue;
-                };
-                let on = [
-                    (true, branch.weight * bend.reflectance),
-                    (false, branch.weight * (1.0 - bend.reflectance)),
-                ];
-                let [weak, strong] = if on[0].1 <= on[1].1 { on } else { [on[1], on[0]] };
-                let incoming = branch.flight.direction;
-                let continued = |(back, weight): (bool, f64), mut memory: Memory<M>| {
-                    memory.turn(&event, incoming, back, branch.tint, optics);
-                    let flight = if back {
-                        reflected(&event, &bend)
-                    } else {
-                        transmitted(&event, direction)
-                    };
-                    Branch { flight, weight, tint: branch.tint, events: branch.events, memory }
-                };
-                if weak.1 * present >= cut {
-                    waiting.push(continued(weak, branch.memory.clone()));
-                } else {
-                    sum.truncated += weak.1 * present;
-                }
-                if strong.1 * present < cut * FLOOR {
-                    sum.truncated += strong.1 * present;
-                    break;
-                }
-                branch = continued(strong, branch.memory.clone());
-            }
+        climb.waiting.clear();
+        let (tint, memory) = (DVec3::ONE, Memory::new());
+        let mut next = Some(Branch { flight, weight: 1.0, tint, events: 0, memory });
+        while let Some(branch) = next.or_else(|| climb.waiting.pop()) {
+            next = self.step::<M, P, UNIFORM, LENGTHS>(branch, climb, &mut sum);
         }
         sum
+    }
+
+    /// Follows a branch to its next event and over it; `None` where it ends.
+    #[inline(always)]
+    fn step<M: Media, P: Policy, const UNIFORM: bool, const LENGTHS: bool>(
+        &self,
+        mut branch: Branch<M>,
+        climb: &mut Climb<'_, M, P>,
+        sum: &mut Sum,
+    ) -> Option<Branch<M>> {
+        let interfaces = self.restriction.max_interfaces.unwrap_or(u32::MAX);
+        let end = if branch.events >= interfaces {
+            End::Environment
+        } else {
+            let indices = &climb.optics.indices;
+            self.world.follow::<M, LENGTHS>(&branch.flight, indices, climb.scratch)
+        };
+        if LENGTHS {
+            branch.tint *= climb.optics.transmittance(&climb.scratch.pieces);
+        }
+        sum.met |= branch.events == 0 && !matches!(end, End::Environment);
+        let light = match end {
+            End::Event(event) => return self.turn::<M, P, LENGTHS>(branch, event, climb, sum),
+            End::Environment => self.environment::<UNIFORM>(branch.flight.direction),
+            End::Opaque(crossing) => self.shade(&branch.flight, &crossing),
+        };
+        let light = light * branch.tint * branch.weight;
+        sum.radiance += light;
+        if let Some(bounce) = climb.bounces.get_mut(branch.events as usize) {
+            *bounce += light;
+        }
+        None
+    }
+
+    /// Takes a branch over an event: the stronger continuation, if any.
+    #[inline(always)]
+    fn turn<M: Media, P: Policy, const LENGTHS: bool>(
+        &self,
+        mut branch: Branch<M>,
+        mut event: Event<M>,
+        climb: &mut Climb<'_, M, P>,
+        sum: &mut Sum,
+    ) -> Option<Branch<M>> {
+        let optics = climb.optics;
+        branch.memory.prepare(&mut event);
+        let bend = optics.bend(branch.flight.direction, &event);
+        branch.events += 1;
+        climb.scratch.counters.events += 1;
+        let present = if LENGTHS { branch.tint.max_element() } else { 1.0 };
+        if branch.events > self.restriction.max_events {
+            sum.truncated += branch.weight * present;
+            climb.scratch.counters.capped += 1;
+            return None;
+        }
+        let Some(direction) = bend.transmitted else {
+            // Nothing to choose, and a path that starts again needs its weight:
+            // only what is too faint for any sum ends here.
+            branch.flight = reflected(&event, &bend);
+            if let Some((flight, tint)) = branch.memory.total_reflection(optics) {
+                (branch.flight, branch.tint) = (flight, tint);
+            }
+            return (branch.weight * present >= f64::MIN_POSITIVE).then_some(branch);
+        };
+        let dropped = !event.entering && !self.restriction.internal_reflection;
+        let reflectance = if dropped { 0.0 } else { bend.reflectance };
+        let weights = [branch.weight * reflectance, branch.weight * (1.0 - bend.reflectance)];
+        let choice = climb.policy.choose(weights, present);
+        sum.truncated += choice.lost;
+        let incoming = branch.flight.direction;
+        let continued = |back: bool, weight: f64| {
+            let mut memory = branch.memory.clone();
+            memory.turn(&event, incoming, back, branch.tint, optics);
+            let flight =
+                if back { reflected(&event, &bend) } else { transmitted(&event, direction) };
+            Branch { flight, weight, tint: branch.tint, events: branch.events, memory }
+        };
+        let (back, on) = (choice.reflected, choice.transmitted);
+        match (back > 0.0, on > 0.0) {
+            (true, true) => {
+                let [weak, strong] = if back <= on {
+                    [(true, back), (false, on)]
+                } else {
+                    [(false, on), (true, back)]
+                };
+                climb.waiting.push(continued(weak.0, weak.1));
+                Some(continued(strong.0, strong.1))
+            }
+            (true, false) => Some(continued(true, back)),
+            (false, true) => Some(continued(false, on)),
+            (false, false) => None,
+        }
     }
 }

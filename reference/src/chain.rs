@@ -21,6 +21,8 @@ pub(crate) struct Chain {
     /// Where it meets its second surface.
     pub(crate) hit2: DVec3,
     pub(crate) events: u32,
+    /// The camera ray met a surface.
+    pub(crate) met: bool,
     pub(crate) total_reflections: u32,
     /// Bits of [`flag`].
     pub(crate) flags: u32,
@@ -63,6 +65,7 @@ impl Tracer<'_> {
                     chain.lengths[usize::from(medium.0)] += length;
                 }
             }
+            chain.met |= !matches!(end, End::Environment);
             let mut event = match end {
                 End::Event(event) => event,
                 End::Environment => {

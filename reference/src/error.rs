@@ -26,6 +26,12 @@ pub enum Error {
         "the reference has no layer \"{0}\" at this level\nthe layers are listed by `snell methods`"
     )]
     Layer(String),
+    /// Variance of something that is not an estimate.
+    #[error(
+        "the layer \"variance\" needs random paths in at least 2 batches, at level R1 or R2\nthe tree \
+         of paths reports what it dropped in the layer \"truncated\" instead"
+    )]
+    NoVariance,
     /// A number outside its range.
     #[error("{name} = {value} is out of range: {range}")]
     Range {

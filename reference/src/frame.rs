@@ -8,12 +8,13 @@ use crate::branches::Branch;
 use crate::error::Error;
 use crate::flight::{Counters, Scratch};
 use crate::layers::{Columns, Pixel};
+use crate::light::Light;
 use crate::media::{Counts, Inside, Media};
 use crate::plan::Variant;
-use crate::request::{Estimator, Level, Request};
+use crate::request::{Estimator, Request};
 use crate::tracer::Tracer;
 use crate::world::World;
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 use rayon::prelude::*;
 use scenes::rendering::{Pass, Provenance, Time, TimeSource};
 use scenes::{Camera, LayerName, Layers, Rendering, Scene};
@@ -51,9 +52,6 @@ pub fn render_watched(
     watch: Watch<'_>,
 ) -> Result<Rendering, Error> {
     request.check()?;
-    if matches!(request.estimator, Estimator::Paths { .. }) {
-        return Err(Error::NotYet("path sampling".to_owned()));
-    }
     let columns = Columns::new(scene, request)?;
     let started = Instant::now();
     let world = World::new(scene, request.view.frame, request.level)?;
@@ -164,70 +162,11 @@ impl Job<'_> {
             let flight = self.tracer.launch(ray, scratch);
             pixel.chain = self.tracer.chain::<M, UNIFORM, LENGTHS>(flight, scratch);
         }
-        if !self.columns.needs_mean {
-            return pixel;
+        if self.columns.needs_mean {
+            let mut light = Light { job: self, waiting, scratch, bounces: Vec::new() };
+            light.pixel::<UNIFORM, LENGTHS>(corner_px, &mut pixel);
         }
-        let k = self.request.view.positions_per_axis;
-        for index in 0..k * k {
-            let at = DVec2::new(f64::from(index % k), f64::from(index / k)) + 0.5;
-            self.sample::<M, UNIFORM, LENGTHS>(
-                corner_px + at / f64::from(k),
-                &mut pixel,
-                scratch,
-                waiting,
-            );
-        }
-        let share = 1.0 / f64::from(k * k);
-        pixel.radiance *= share;
-        pixel.truncated *= share;
-        pixel.coverage *= share;
-        pixel.samples = f64::from(k * k);
         pixel
-    }
-
-    /// Adds the light through one position.
-    fn sample<M: Media, const UNIFORM: bool, const LENGTHS: bool>(
-        &self,
-        position_px: DVec2,
-        pixel: &mut Pixel,
-        scratch: &mut Scratch,
-        waiting: &mut Vec<Branch<M>>,
-    ) {
-        let flight: crate::flight::Flight<M> =
-            self.tracer.launch(self.camera.ray_through(position_px), scratch);
-        if self.request.level == Level::R0 {
-            let chain = self.tracer.chain::<M, UNIFORM, LENGTHS>(flight, scratch);
-            pixel.radiance += chain.radiance;
-            pixel.truncated += f64::from(u8::from(chain.lost()));
-            pixel.coverage += f64::from(u8::from(chain.events > 0));
-            return;
-        }
-        let cut = match self.request.estimator {
-            Estimator::Tree { cut } => cut,
-            Estimator::Paths { .. } => 0.0,
-        };
-        if !self.tracer.disperses {
-            let optics = &self.tracer.optics[crate::optics::D_LINE];
-            let sum =
-                self.tracer.tree::<M, UNIFORM, LENGTHS>(flight, optics, cut, waiting, scratch);
-            pixel.radiance += sum.radiance;
-            pixel.truncated += sum.truncated;
-            pixel.coverage += f64::from(u8::from(sum.met));
-            return;
-        }
-        let mut truncated = DVec3::ZERO;
-        for channel in 0..3 {
-            let optics = &self.tracer.optics[channel];
-            let flight = flight.clone();
-            let sum =
-                self.tracer.tree::<M, UNIFORM, LENGTHS>(flight, optics, cut, waiting, scratch);
-            pixel.radiance[channel] += sum.radiance[channel];
-            truncated[channel] = sum.truncated;
-            if channel == crate::optics::D_LINE {
-                pixel.coverage += f64::from(u8::from(sum.met));
-            }
-        }
-        pixel.truncated += truncated.max_element();
     }
 }
 

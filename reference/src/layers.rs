@@ -3,7 +3,7 @@
 use crate::chain::Chain;
 use crate::error::Error;
 use crate::frame::is_of_chain;
-use crate::request::Request;
+use crate::request::{Estimator, Level, Request};
 use glam::DVec3;
 use scenes::{LayerName, Layers, Scene};
 
@@ -15,6 +15,10 @@ pub(crate) struct Pixel {
     pub(crate) truncated: f64,
     pub(crate) coverage: f64,
     pub(crate) samples: f64,
+    /// Of the mean over batches.
+    pub(crate) variance: DVec3,
+    /// Radiance by number of interfaces, as far as asked for.
+    pub(crate) bounces: Vec<DVec3>,
 }
 
 /// The layers asked for, as columns of a row of pixels.
@@ -29,12 +33,14 @@ pub(crate) struct Columns {
     pub(crate) needs_chain: bool,
     /// A layer shows the mean over the pixel's positions.
     pub(crate) needs_mean: bool,
+    /// Numbers of interfaces whose light is kept apart.
+    pub(crate) bounces: usize,
 }
 
 impl Columns {
     pub(crate) fn new(scene: &Scene, request: &Request) -> Result<Self, Error> {
         let mut names: Vec<(LayerName, usize)> = Vec::new();
-        let mut media = Vec::new();
+        let (mut media, mut bounces) = (Vec::new(), 0);
         for name in &request.view.layers {
             let unknown = || Error::Layer(name.to_string());
             let channels = match name {
@@ -43,6 +49,14 @@ impl Columns {
                 | LayerName::ExitPosition
                 | LayerName::First
                 | LayerName::Hit2 => 3,
+                LayerName::Bounce(order) if request.level != Level::R0 => {
+                    bounces = bounces.max(usize::from(*order) + 1);
+                    3
+                }
+                LayerName::Variance => match request.estimator {
+                    Estimator::Paths { batches: 2.., .. } if request.level != Level::R0 => 3,
+                    _ => return Err(Error::NoVariance),
+                },
                 LayerName::Coverage
                 | LayerName::Events
                 | LayerName::TotalReflections
@@ -65,6 +79,7 @@ impl Columns {
             needs_chain: names.iter().any(|(name, _)| is_of_chain(name)),
             needs_mean: names.iter().any(|(name, _)| !is_of_chain(name)),
             media,
+            bounces,
             names,
         })
     }
@@ -97,6 +112,11 @@ impl Columns {
                 LayerName::Flags => row.push(f64::from(chain.flags)),
                 LayerName::Truncated => row.push(pixel.truncated),
                 LayerName::Samples => row.push(pixel.samples),
+                LayerName::Variance => vector(row, pixel.variance),
+                LayerName::Bounce(order) => {
+                    let bounce = pixel.bounces.get(usize::from(*order));
+                    vector(row, bounce.copied().unwrap_or_default());
+                }
                 _ => {
                     let length = media.next().and_then(|medium| chain.lengths.get(*medium));
                     row.push(length.copied().unwrap_or(0.0));

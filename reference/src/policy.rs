@@ -1,0 +1,95 @@
+//! Which continuations of an event are followed.
+
+use crate::sampling::Points;
+
+/// Weights with which an event's two continuations go on; 0: not followed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Choice {
+    pub(crate) reflected: f64,
+    pub(crate) transmitted: f64,
+    /// Weight that was dropped for good.
+    pub(crate) lost: f64,
+}
+
+/// Decides at every event.
+pub(crate) trait Policy {
+    /// * `weights`: of the reflected and the transmitted continuation.
+    /// * `present`: transmittance of the path so far, 0 to 1.
+    fn choose(&mut self, weights: [f64; 2], present: f64) -> Choice;
+}
+
+/// Follows everything whose weight is at least the cut. The stronger
+/// continuation may be up to 1024 times weaker before it is dropped too: it
+/// mostly leads out, so that what is lost is a small share of what is followed.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Cut(pub(crate) f64);
+
+impl Policy for Cut {
+    #[inline(always)]
+    fn choose(&mut self, [reflected, transmitted]: [f64; 2], present: f64) -> Choice {
+        let keep = |mine: f64, other: f64| {
+            let least = if mine >= other { self.0 / 1024.0 } else { self.0 };
+            if mine * present >= least { mine } else { 0.0 }
+        };
+        let kept = [keep(reflected, transmitted), keep(transmitted, reflected)];
+        let lost = (reflected - kept[0]) + (transmitted - kept[1]);
+        Choice { reflected: kept[0], transmitted: kept[1], lost: lost * present }
+    }
+}
+
+/// Follows both while both are strong, then one at random; ends absorbed paths
+/// at random. The expectation is that of following everything.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Roulette {
+    points: Points,
+    sample: u32,
+    /// Random numbers drawn so far.
+    drawn: u32,
+    kept: f64,
+}
+
+/// Weight above which both continuations are followed.
+const SPLIT: f64 = 1.0 / 32.0;
+/// Throughput below which a path must survive a draw.
+const FADED: f64 = 1.0 / 64.0;
+
+impl Roulette {
+    /// The first pair of dimensions is the caller's, for the position.
+    pub(crate) fn new(points: Points, sample: u32) -> Self {
+        Self { points, sample, drawn: 2, kept: 0.0 }
+    }
+
+    fn draw(&mut self) -> f64 {
+        let second = self.drawn % 2 == 1;
+        if !second {
+            let [first, next] = self.points.pair(self.sample, self.drawn / 2);
+            self.kept = next;
+            self.drawn += 1;
+            return first;
+        }
+        self.drawn += 1;
+        self.kept
+    }
+}
+
+impl Policy for Roulette {
+    fn choose(&mut self, [reflected, transmitted]: [f64; 2], present: f64) -> Choice {
+        let whole = reflected + transmitted;
+        if reflected.min(transmitted) * present >= SPLIT {
+            return Choice { reflected, transmitted, lost: 0.0 };
+        }
+        let mut weight = whole;
+        // Paths that follow one continuation keep their weight, so only
+        // absorption fades them.
+        let survival = (whole * present / FADED).min(1.0);
+        if survival < 1.0 {
+            if self.draw() >= survival {
+                return Choice { reflected: 0.0, transmitted: 0.0, lost: 0.0 };
+            }
+            weight /= survival;
+        }
+        let back = reflected > 0.0 && self.draw() * whole < reflected;
+        let [reflected, transmitted] = if back { [weight, 0.0] } else { [0.0, weight] };
+        Choice { reflected, transmitted, lost: 0.0 }
+    }
+}
