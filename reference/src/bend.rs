@@ -52,6 +52,16 @@ pub(crate) fn bend(
     bend_at(d, flat, [eta_i, eta_t], model)
 }
 
+/// Crosses a parallel gap of air in a medium of index `eta`.
+///
+/// Light goes to and fro in the gap: R = 2 R₁ / (1 + R₁) with R₁ the
+/// reflectance of one of its faces; what passes keeps its direction.
+pub(crate) fn through_gap(d: DVec3, normals: Normals, entering: bool, eta: f64) -> Bend {
+    let faces = bend(d, normals, entering, [eta, 1.0], Fresnel::Exact);
+    let reflectance = 2.0 * faces.reflectance / (1.0 + faces.reflectance);
+    Bend { reflectance, transmitted: faces.transmitted.map(|_| d), ..faces }
+}
+
 fn bend_at(d: DVec3, n: DVec3, [eta_i, eta_t]: [f64; 2], model: Fresnel) -> Bend {
     let cos_i = (-d.dot(n)).clamp(0.0, 1.0);
     let transmitted = refract(d, n, eta_i, eta_t);
@@ -72,4 +82,29 @@ fn schlick(cos_i: f64, cos_t: f64, eta_i: f64, eta_t: f64) -> f64 {
     let r0 = ((eta_i - eta_t) / (eta_i + eta_t)).powi(2);
     let cos = if eta_i > eta_t { cos_t } else { cos_i };
     r0 + (1.0 - r0) * (1.0 - cos).powi(5)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Light that goes to and fro in the gap adds up: with one face reflecting
+    /// R, the sum R + (1 - R)² R (1 + R² + R⁴ + …) is 2 R / (1 + R).
+    #[test]
+    fn a_gap_reflects_what_its_two_faces_do() {
+        let up = Normals { geometric: DVec3::Z, shading: DVec3::Z };
+        for degrees in [0.0_f64, 20.0, 40.0, 49.0, 50.0, 80.0] {
+            let (sin, cos) = degrees.to_radians().sin_cos();
+            let d = DVec3::new(sin, 0.0, -cos);
+            let (gap, face) = (through_gap(d, up, true, 1.309), fresnel(cos, 1.309, 1.0));
+            let mut sum = face;
+            let mut inside = (1.0 - face) * (1.0 - face);
+            for _ in 0..2000 {
+                sum += inside * face;
+                inside *= face * face;
+            }
+            assert!((gap.reflectance - sum).abs() < 1e-12, "{degrees}");
+            assert_eq!(gap.transmitted, (degrees < 49.8).then_some(d));
+        }
+    }
 }

@@ -49,7 +49,8 @@ impl Tracer<'_> {
         let optics = &self.optics[crate::optics::D_LINE];
         let mut chain = Chain::default();
         if LENGTHS {
-            chain.lengths = vec![0.0; optics.absorption.len()];
+            // The last is air that no medium of the scene stands for.
+            chain.lengths = vec![0.0; optics.absorption.len() + 1];
         }
         let (mut tint, mut memory) = (DVec3::ONE, Memory::new());
         let interfaces = self.restriction.max_interfaces.unwrap_or(u32::MAX);

@@ -9,7 +9,7 @@ impl World {
     /// True when there is exactly one body, transparent, and convex.
     pub(crate) fn is_one_convex_body(&self) -> bool {
         let [body] = self.bodies.as_slice() else { return false };
-        if body.class.is_none() {
+        if body.class().is_none() {
             return false;
         }
         match self.analytic.as_slice() {

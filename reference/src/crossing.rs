@@ -3,8 +3,10 @@
 use crate::bend::Normals;
 use crate::line::{Line, ROUNDING};
 use crate::traverse::{Query, Stack, TriangleHit};
-use crate::world::World;
+use crate::world::{Body, World};
 use glam::DVec3;
+use scenes::noise::bumped;
+use scenes::scene::Bump;
 
 /// A line's passage through a body's surface.
 #[derive(Clone, Copy, Debug)]
@@ -129,24 +131,36 @@ impl World {
 
     /// What the surface is like at a crossing.
     pub(crate) fn spot(&self, crossing: &Crossing) -> Spot {
-        match crossing.place {
-            Place::Analytic { point, normal } => {
-                let normals = Normals { geometric: normal, shading: normal };
-                Spot { position: point, normals, margin: f64::INFINITY }
-            }
+        let body = &self.bodies[crossing.body as usize];
+        let (position, geometric, margin, mut shading) = match crossing.place {
+            Place::Analytic { point, normal } => (point, normal, f64::INFINITY, normal),
             Place::Triangle { slot, weights } => {
                 let triangle = &self.tree.triangles[slot as usize];
                 let geometric = triangle.normal();
-                let body = &self.bodies[crossing.body as usize];
                 let shading = body.smooth.as_ref().map_or(geometric, |smooth| {
                     let n = smooth.at((crossing.id - body.first_id) as usize, weights);
                     if n == DVec3::ZERO { geometric } else { n }
                 });
                 let position = triangle.point(weights);
-                let margin = triangle.distance_to_edge(position);
-                Spot { position, normals: Normals { geometric, shading }, margin }
+                (position, geometric, triangle.distance_to_edge(position), shading)
             }
+        };
+        if let Some(bump) = &body.bump {
+            shading = body.tilted(bump, position, shading);
         }
+        Spot { position, normals: Normals { geometric, shading }, margin }
+    }
+}
+
+impl Body {
+    /// A normal under a bump map; both in world space.
+    fn tilted(&self, bump: &Bump, position: DVec3, normal: DVec3) -> DVec3 {
+        let here = self.object_from_world.transform_point3(position);
+        let [to_world, to_object] =
+            [self.object_from_world, self.world_from_object].map(|m| m.matrix3.transpose());
+        let tilted = bumped((to_object * normal).normalize_or_zero(), here, bump);
+        let world = (to_world * tilted).normalize_or_zero();
+        if world.is_finite() && world != DVec3::ZERO { world } else { normal }
     }
 }
 

@@ -15,6 +15,17 @@ pub enum Error {
         /// Edges whose two directions do not occur equally often.
         edges: usize,
     },
+    /// A body whose surface faces inwards.
+    #[error(
+        "object \"{object}\": its mesh faces inwards (volume {volume_m3:e} m³), so its inside is \
+         everything else\nreverse the order of its triangles' corners"
+    )]
+    InsideOut {
+        /// Name of the object.
+        object: String,
+        /// Signed volume in the mesh's own space.
+        volume_m3: f64,
+    },
     /// More triangles than a tree can address.
     #[error("the scene has {0} triangles; the reference can hold {most}", most = crate::tree::MOST_TRIANGLES)]
     TooManyTriangles(usize),

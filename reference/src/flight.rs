@@ -10,9 +10,9 @@ use crate::crossing::{Crossing, Departed, Spot};
 use crate::line::Line;
 use crate::media::Media;
 use crate::traverse::Stack;
-use crate::world::World;
+use crate::world::{Role, World};
 use glam::DVec3;
-use scenes::MediumId;
+use scenes::{MediumId, Ray};
 
 /// What a ray knows about its origin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,6 +44,8 @@ pub(crate) struct Event<M> {
     pub(crate) entering: bool,
     /// No other surface coincides.
     pub(crate) single: bool,
+    /// A gap of air without thickness: the same medium on both sides.
+    pub(crate) gap: bool,
     pub(crate) before: M,
     pub(crate) after: M,
 }
@@ -167,9 +169,16 @@ impl World {
             if close || next.lost || grazing {
                 return self.settle::<M, LENGTHS>(flight, indices, scratch);
             }
-            let Some(class) = self.bodies[crossing.body as usize].class else {
-                note::<M, LENGTHS>(scratch, indices, &media, t - from_t);
-                return End::Opaque(crossing);
+            let class = match self.bodies[crossing.body as usize].role {
+                Role::Solid(class) => class,
+                Role::Crack(host) if media.top() != Some(host) => {
+                    (after, fresh) = (crossing.key(), false);
+                    continue;
+                }
+                role => {
+                    note::<M, LENGTHS>(scratch, indices, &media, t - from_t);
+                    return self.thin(&crossing, role, media);
+                }
             };
             let mut beyond = media.clone();
             beyond.cross(class, crossing.entering);
@@ -181,10 +190,19 @@ impl World {
         }
     }
 
+    /// What a surface without an inside does.
+    fn thin<M: Media>(&self, crossing: &Crossing, role: Role, media: M) -> End<M> {
+        if role == Role::Opaque {
+            return End::Opaque(*crossing);
+        }
+        let gap = self.event(crossing, true, media.clone(), media);
+        End::Event(Event { gap: true, ..gap })
+    }
+
     fn event<M: Media>(&self, crossing: &Crossing, single: bool, before: M, after: M) -> Event<M> {
         let (id, entering) = (crossing.id, crossing.entering);
         let spot = self.spot(crossing);
-        Event { id, spot, entering, single, before, after }
+        Event { id, spot, entering, single, gap: false, before, after }
     }
 
     /// The same with all crossings of the line in view.
@@ -220,7 +238,7 @@ impl World {
         scratch: &mut Scratch,
     ) {
         let window = |c: &Crossing| line.rounding_at(c.t) / self.cosine(line, c).max(FLATTEST);
-        let class_of = |c: &Crossing| self.bodies[c.body as usize].class;
+        let class_of = |c: &Crossing| self.bodies[c.body as usize].class();
         scratch.splits.clear();
         for class in 0..self.classes.len() {
             let (mut least, mut behind, mut most, mut seen) = (0, 0, usize::MAX, 0);
@@ -279,14 +297,22 @@ impl World {
         indices: &Indices,
         scratch: &mut Scratch,
     ) -> End<M> {
-        let class_of = |c: &Crossing| self.bodies[c.body as usize].class;
+        let class_of = |c: &Crossing| self.bodies[c.body as usize].class();
         let (mut rest, mut from_t) = (crossings, 0.0);
         while let Some(first) = rest.first() {
             let t = first.t.max(0.0);
-            note::<M, LENGTHS>(scratch, indices, &media, t - from_t);
-            if class_of(first).is_none() {
-                return End::Opaque(*first);
+            match self.bodies[first.body as usize].role {
+                Role::Solid(_) => {}
+                Role::Crack(host) if media.top() != Some(host) => {
+                    rest = &rest[1..];
+                    continue;
+                }
+                role => {
+                    note::<M, LENGTHS>(scratch, indices, &media, t - from_t);
+                    return self.thin(first, role, media);
+                }
             }
+            note::<M, LENGTHS>(scratch, indices, &media, t - from_t);
             let window = line.rounding_at(first.t) / self.cosine(line, first).max(GRAZING);
             let together = |c: &&Crossing| c.t <= first.t + window && class_of(c).is_some();
             let group = &rest[..rest.iter().take_while(together).count().max(1)];
@@ -319,12 +345,29 @@ impl World {
         self.all_crossings(&line, &mut crossings);
         let mut media = M::outside();
         for crossing in crossings.iter().filter(|crossing| crossing.t <= 0.0) {
-            if let Some(class) = self.bodies[crossing.body as usize].class {
+            if let Some(class) = self.bodies[crossing.body as usize].class() {
                 media.cross(class, crossing.entering);
             }
         }
         scratch.crossings = crossings;
         media
+    }
+}
+
+impl World {
+    /// True if a straight ray meets a crack while inside its solid.
+    pub(crate) fn meets_crack<M: Media>(&self, ray: Ray, scratch: &mut Scratch) -> bool {
+        let line = Line::new(ray.origin, ray.direction);
+        let mut media = M::outside();
+        self.all_crossings(&line, &mut scratch.crossings);
+        scratch.crossings.iter().any(|crossing| {
+            match self.bodies[crossing.body as usize].role {
+                Role::Solid(class) => media.cross(class, crossing.entering),
+                Role::Crack(host) => return crossing.t > 0.0 && media.top() == Some(host),
+                Role::Opaque => {}
+            }
+            false
+        })
     }
 }
 

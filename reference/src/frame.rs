@@ -162,6 +162,10 @@ impl Job<'_> {
             let flight = self.tracer.launch(ray, scratch);
             pixel.chain = self.tracer.chain::<M, UNIFORM, LENGTHS>(flight, scratch);
         }
+        if self.columns.needs_cracks {
+            let ray = self.camera.ray_through(corner_px + 0.5);
+            pixel.crack = self.tracer.world.meets_crack::<M>(ray, scratch);
+        }
         if self.columns.needs_mean {
             let mut light = Light { job: self, waiting, scratch, bounces: Vec::new() };
             light.pixel::<UNIFORM, LENGTHS>(corner_px, &mut pixel);

@@ -7,6 +7,14 @@ use crate::request::{Estimator, Level, Request};
 use glam::DVec3;
 use scenes::{LayerName, Layers, Scene};
 
+/// Layer: 1 where the straight ray through the pixel's centre meets a crack
+/// inside its solid.
+const CRACK_MASK: &str = "crack_mask";
+
+fn is_mask(name: &LayerName) -> bool {
+    matches!(name, LayerName::Buffer(name) if name == CRACK_MASK)
+}
+
 /// Everything that can be known about a pixel.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Pixel {
@@ -19,6 +27,8 @@ pub(crate) struct Pixel {
     pub(crate) variance: DVec3,
     /// Radiance by number of interfaces, as far as asked for.
     pub(crate) bounces: Vec<DVec3>,
+    /// The straight ray through the centre meets a crack inside a solid.
+    pub(crate) crack: bool,
 }
 
 /// The layers asked for, as columns of a row of pixels.
@@ -33,6 +43,8 @@ pub(crate) struct Columns {
     pub(crate) needs_chain: bool,
     /// A layer shows the mean over the pixel's positions.
     pub(crate) needs_mean: bool,
+    /// A layer shows where cracks are.
+    pub(crate) needs_cracks: bool,
     /// Numbers of interfaces whose light is kept apart.
     pub(crate) bounces: usize,
 }
@@ -68,6 +80,7 @@ impl Columns {
                     media.push(found.ok_or_else(unknown)?);
                     1
                 }
+                LayerName::Buffer(name) if name == CRACK_MASK => 1,
                 _ => return Err(unknown()),
             };
             if !names.iter().any(|(other, _)| other == name) {
@@ -77,7 +90,8 @@ impl Columns {
         Ok(Self {
             stride: names.iter().map(|(_, channels)| channels).sum(),
             needs_chain: names.iter().any(|(name, _)| is_of_chain(name)),
-            needs_mean: names.iter().any(|(name, _)| !is_of_chain(name)),
+            needs_mean: names.iter().any(|(name, _)| !is_of_chain(name) && !is_mask(name)),
+            needs_cracks: names.iter().any(|(name, _)| is_mask(name)),
             media,
             bounces,
             names,
@@ -111,6 +125,7 @@ impl Columns {
                 LayerName::TotalReflections => row.push(f64::from(chain.total_reflections)),
                 LayerName::Flags => row.push(f64::from(chain.flags)),
                 LayerName::Truncated => row.push(pixel.truncated),
+                LayerName::Buffer(_) => row.push(f64::from(u8::from(pixel.crack))),
                 LayerName::Samples => row.push(pixel.samples),
                 LayerName::Variance => vector(row, pixel.variance),
                 LayerName::Bounce(order) => {

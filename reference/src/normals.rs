@@ -23,32 +23,23 @@ impl Smooth {
     }
 }
 
-/// The mesh's own normals, or means of the adjacent faces weighted by their
-/// angles where it brings none.
-/// Source: G. Thürmer, C. Wüthrich, "Computing Vertex Normals from Polygonal
-/// Facets", Journal of Graphics Tools 3(1), 1998.
+/// The mesh's own normals, or angle-weighted means of the adjacent faces where
+/// it brings none.
 pub(crate) fn smooth_normals(mesh: &Mesh, normal_from_object: DMat3) -> Smooth {
     // A mirrored mesh is baked with its last two corners swapped.
     let mirrored = normal_from_object.determinant() < 0.0;
     let order = |[a, b, c]: &[u32; 3]| if mirrored { [*a, *c, *b] } else { [*a, *b, *c] };
-    let world = |n: DVec3| (normal_from_object * n).normalize_or_zero();
-    if let Some(normals) = &mesh.normals {
-        let values = normals.values.iter().map(|n| world(*n)).collect();
-        return Smooth { values, indices: normals.indices.iter().map(order).collect() };
-    }
-    let mut sums = vec![DVec3::ZERO; mesh.positions.len()];
-    for (index, triangle) in mesh.triangles.iter().enumerate() {
-        let corners = mesh.corners(index);
-        let face = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or_zero();
-        for i in 0..3 {
-            let (to, other) =
-                (corners[(i + 1) % 3] - corners[i], corners[(i + 2) % 3] - corners[i]);
-            let angle = to.cross(other).length().atan2(to.dot(other));
-            sums[triangle[i] as usize] += face * angle;
+    let world = |n: &DVec3| (normal_from_object * *n).normalize_or_zero();
+    let means;
+    let normals = match &mesh.normals {
+        Some(normals) => normals,
+        None => {
+            means = scenes::normals::smooth(mesh);
+            &means
         }
-    }
+    };
     Smooth {
-        values: sums.into_iter().map(world).collect(),
-        indices: mesh.triangles.iter().map(order).collect(),
+        values: normals.values.iter().map(world).collect(),
+        indices: normals.indices.iter().map(order).collect(),
     }
 }

@@ -1,7 +1,7 @@
 //! What the scene is made of, for one colour channel, and how a ray goes on
 //! after an event.
 
-use crate::bend::{Bend, bend};
+use crate::bend::{Bend, bend, through_gap};
 use crate::crossing::Departed;
 use crate::flight::{Event, Flight, Indices, Start};
 use crate::media::Media;
@@ -46,6 +46,9 @@ impl Optics {
     /// What an event does to a ray of this direction.
     pub(crate) fn bend<M: Media>(&self, direction: DVec3, event: &Event<M>) -> Bend {
         let sides = [self.indices.eta(&event.before), self.indices.eta(&event.after)];
+        if event.gap {
+            return through_gap(direction, event.spot.normals, event.entering, sides[0]);
+        }
         bend(direction, event.spot.normals, event.entering, sides, self.fresnel)
     }
 

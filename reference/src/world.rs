@@ -8,7 +8,9 @@ use crate::topology::unmatched_edges;
 use crate::tree::{MOST_TRIANGLES, Tree};
 use crate::triangle::Triangle;
 use glam::{DAffine3, DMat3, DVec3};
-use scenes::scene::Normals;
+use scenes::air::bubbles;
+use scenes::crack::cracks;
+use scenes::scene::{Bump, Normals};
 use scenes::{MediumId, Mesh, Object, Scene, Shape, Surface};
 use std::sync::Arc;
 
@@ -39,13 +41,33 @@ pub(crate) struct Class {
 pub(crate) struct Body {
     /// Index into the scene's objects.
     pub(crate) object: usize,
-    /// Index into the classes; `None` for opaque bodies.
-    pub(crate) class: Option<usize>,
+    pub(crate) role: Role,
+    pub(crate) world_from_object: DAffine3,
     pub(crate) object_from_world: DAffine3,
     /// Number of its first triangle.
     pub(crate) first_id: u32,
     /// Shading normals, if they differ from the geometric ones.
     pub(crate) smooth: Option<Smooth>,
+    /// Tilts shading normals.
+    pub(crate) bump: Option<Bump>,
+}
+
+/// What a body's surface is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Role {
+    /// The boundary of a solid of this class.
+    Solid(usize),
+    /// An end of light.
+    Opaque,
+    /// A gap of air without thickness in solids of this class.
+    Crack(usize),
+}
+
+impl Body {
+    /// Index into the classes of a solid.
+    pub(crate) fn class(&self) -> Option<usize> {
+        if let Role::Solid(class) = self.role { Some(class) } else { None }
+    }
 }
 
 /// A convex shape without triangles.
@@ -65,14 +87,16 @@ impl World {
     /// Bakes a frame of the scene.
     ///
     /// # Errors
-    /// A dielectric mesh is open, or there are too many triangles or media.
+    /// A dielectric mesh has no inside, or there are too many triangles or media.
     pub(crate) fn new(scene: &Scene, frame: u32, level: Level) -> Result<Self, Error> {
         let shown = |object: &Object| {
             level == Level::R2 || matches!(object.surface, Surface::Dielectric { .. })
         };
         let objects: Vec<(usize, &Object)> =
             scene.objects.iter().enumerate().filter(|(_, object)| shown(object)).collect();
-        let classes = classes_of(&objects);
+        // Air that no medium of the scene stands for.
+        let air = MediumId(u16::try_from(scene.media.len()).unwrap_or(u16::MAX));
+        let classes = classes_of(&objects, air);
         if classes.len() > 256 {
             return Err(Error::TooManyMedia(classes.len()));
         }
@@ -85,62 +109,121 @@ impl World {
             tree: Tree::default(),
             bodies: Vec::with_capacity(objects.len()),
             analytic: Vec::new(),
-            first_analytic: count as u32,
+            first_analytic: 0,
             classes,
             bounds: [DVec3::INFINITY, DVec3::NEG_INFINITY],
         };
         let mut triangles = Vec::with_capacity(count);
         let time_s = scene.time_s(frame);
         for (index, object) in objects {
-            world.add(index, object, time_s, &mut triangles)?;
+            world.add(index, object, time_s, air, &mut triangles)?;
+        }
+        if triangles.len() > MOST_TRIANGLES {
+            return Err(Error::TooManyTriangles(triangles.len()));
+        }
+        world.first_analytic = triangles.len() as u32;
+        for (index, analytic) in world.analytic.iter_mut().enumerate() {
+            analytic.id = world.first_analytic + 2 * index as u32;
         }
         world.tree = Tree::build(triangles);
         Ok(world)
     }
 
+    /// Adds an object with what is inside it.
     fn add(
         &mut self,
         index: usize,
         object: &Object,
         time_s: f64,
+        air: MediumId,
         triangles: &mut Vec<Triangle>,
     ) -> Result<(), Error> {
-        let class = match object.surface {
-            Surface::Dielectric { medium, priority } => {
-                self.classes.iter().position(|class| *class == Class { medium, priority })
-            }
-            _ => None,
+        let place = object.world_from_object_at(time_s);
+        let shape = object.shape_at(time_s);
+        self.include(shape.bounds(), place);
+        let Surface::Dielectric { medium, priority } = object.surface else {
+            let opaque = body(index, Role::Opaque, place);
+            self.add_shape(opaque, &shape, object.normals, triangles);
+            return Ok(());
         };
-        let body = self.bodies.len() as u32;
-        let mut first_id = triangles.len() as u32;
-        let mut smooth = None;
-        let world_from_object = object.world_from_object_at(time_s);
-        self.include(object.shape.bounds(), world_from_object);
-        let object_from_world = world_from_object.inverse();
-        let normal_from_object = object_from_world.matrix3.transpose();
-        if let Shape::Mesh(mesh) = object.shape.as_ref() {
-            let edges = if class.is_some() { unmatched_edges(mesh) } else { 0 };
-            if edges > 0 {
-                return Err(Error::OpenMesh { object: object.name.clone(), edges });
-            }
-            bake(mesh, world_from_object, first_id, body, triangles);
-            if object.normals == Normals::Smooth {
-                smooth = Some(smooth_normals(mesh, normal_from_object));
+        if let Shape::Mesh(mesh) = shape.as_ref() {
+            must_be_solid(mesh, &object.name)?;
+        }
+        let host = self.class(Class { medium, priority });
+        let solid = Body { bump: object.bump, ..body(index, Role::Solid(host), place) };
+        self.add_shape(solid, &shape, object.normals, triangles);
+        for bubble in object.air.iter().flat_map(|air| bubbles(air, &shape)) {
+            let role = Role::Solid(self.class(air_in(priority, air)));
+            let place = place * DAffine3::from_translation(bubble.centre_m);
+            let ball = Arc::new(Shape::Sphere { radius_m: bubble.radius_m });
+            self.add_shape(body(index, role, place), &ball, Normals::Flat, triangles);
+        }
+        let bounds = shape.bounds();
+        let crack = object.crack.filter(|_| bounds[0].is_finite() && bounds[1].is_finite());
+        for surface in crack.iter().flat_map(|crack| cracks(crack, bounds)) {
+            let surface = Arc::new(Shape::Mesh(surface));
+            let crack = body(index, Role::Crack(host), place);
+            self.add_shape(crack, &surface, Normals::Smooth, triangles);
+        }
+        Ok(())
+    }
+
+    fn add_shape(
+        &mut self,
+        mut body: Body,
+        shape: &Arc<Shape>,
+        normals: Normals,
+        triangles: &mut Vec<Triangle>,
+    ) {
+        let number = self.bodies.len() as u32;
+        let normal_from_object = body.object_from_world.matrix3.transpose();
+        body.first_id = triangles.len() as u32;
+        if let Shape::Mesh(mesh) = shape.as_ref() {
+            bake(mesh, body.world_from_object, body.first_id, number, triangles);
+            if normals == Normals::Smooth {
+                body.smooth = Some(smooth_normals(mesh, normal_from_object));
             }
         } else {
-            first_id = self.first_analytic + 2 * self.analytic.len() as u32;
             self.analytic.push(Analytic {
-                body,
-                id: first_id,
-                shape: Arc::clone(&object.shape),
-                world_from_object,
-                object_from_world,
+                body: number,
+                id: 0,
+                shape: Arc::clone(shape),
+                world_from_object: body.world_from_object,
+                object_from_world: body.object_from_world,
                 normal_from_object,
             });
         }
-        self.bodies.push(Body { object: index, class, object_from_world, first_id, smooth });
-        Ok(())
+        self.bodies.push(body);
     }
+
+    /// Index of a class; every class was collected before.
+    fn class(&self, wanted: Class) -> usize {
+        self.classes.iter().position(|class| *class == wanted).unwrap_or(0)
+    }
+}
+
+fn body(object: usize, role: Role, world_from_object: DAffine3) -> Body {
+    let object_from_world = world_from_object.inverse();
+    let (smooth, bump) = (None, None);
+    Body { object, role, world_from_object, object_from_world, first_id: 0, smooth, bump }
+}
+
+/// Air in a solid of some priority.
+fn air_in(priority: i32, air: MediumId) -> Class {
+    Class { medium: air, priority: priority.saturating_add(1) }
+}
+
+fn must_be_solid(mesh: &Mesh, object: &str) -> Result<(), Error> {
+    let object = object.to_owned();
+    let edges = unmatched_edges(mesh);
+    if edges > 0 {
+        return Err(Error::OpenMesh { object, edges });
+    }
+    let volume_m3 = scenes::topology::signed_volume(mesh);
+    if volume_m3 < 0.0 {
+        return Err(Error::InsideOut { object, volume_m3 });
+    }
+    Ok(())
 }
 
 impl World {
@@ -175,14 +258,16 @@ impl World {
     }
 }
 
-fn classes_of(objects: &[(usize, &Object)]) -> Vec<Class> {
-    let mut classes: Vec<Class> = objects
-        .iter()
-        .filter_map(|(_, object)| match object.surface {
-            Surface::Dielectric { medium, priority } => Some(Class { medium, priority }),
-            _ => None,
-        })
-        .collect();
+fn classes_of(objects: &[(usize, &Object)], air: MediumId) -> Vec<Class> {
+    let mut classes = Vec::new();
+    for (_, object) in objects {
+        if let Surface::Dielectric { medium, priority } = object.surface {
+            classes.push(Class { medium, priority });
+            if object.air.is_some_and(|air| air.bubbles > 0) {
+                classes.push(air_in(priority, air));
+            }
+        }
+    }
     classes.sort_by_key(|class| (std::cmp::Reverse(class.priority), class.medium));
     classes.dedup();
     classes
