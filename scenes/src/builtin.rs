@@ -140,7 +140,10 @@ mod tests {
                 Ok(loaded) => {
                     assert_eq!(loaded.name, scene.name);
                     assert!(!loaded.title.is_empty() && !loaded.objects.is_empty());
-                    assert_eq!(loaded.warnings, Vec::<String>::new(), "{}", scene.name);
+                    // Compressed maps ring below zero; that they were repaired is no flaw.
+                    let flaws =
+                        loaded.warnings.iter().filter(|w| !w.contains("have been repaired"));
+                    assert_eq!(flaws.count(), 0, "{}: {:?}", scene.name, loaded.warnings);
                 }
                 Err(Error::MissingAsset { path, .. }) => assert!(!path.exists()),
                 // Generated shapes are added one by one.
