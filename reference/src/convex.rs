@@ -25,7 +25,7 @@ impl World {
         let key = |p: [f64; 3]| p.map(|x| (x + 0.0).to_bits());
         let size = (self.bounds[1] - self.bounds[0]).max_element();
         let mut across: HashMap<[[u64; 3]; 2], DVec3> = HashMap::new();
-        for triangle in &self.tree.triangles {
+        for triangle in self.tree.triangles() {
             for i in 0..3 {
                 let [a, b, c] = [0, 1, 2].map(|k| triangle.corners[(i + k) % 3]);
                 if across.insert([key(a), key(b)], DVec3::from_array(c)).is_some() {
@@ -33,7 +33,7 @@ impl World {
                 }
             }
         }
-        let bends_outwards = self.tree.triangles.iter().all(|triangle| {
+        let bends_outwards = self.tree.triangles().all(|triangle| {
             let (normal, from) = (triangle.normal(), triangle.corner(0));
             (0..3).all(|i| {
                 let ends = [triangle.corners[(i + 1) % 3], triangle.corners[i]].map(key);
@@ -45,8 +45,8 @@ impl World {
     }
 
     fn middle_is_wound_once(&self) -> bool {
-        let count = self.tree.triangles.len() as f64;
-        let sum: DVec3 = self.tree.triangles.iter().map(|t| t.point([1.0 / 3.0; 3])).sum();
+        let count = self.tree.len() as f64;
+        let sum: DVec3 = self.tree.triangles().map(|t| t.point([1.0 / 3.0; 3])).sum();
         let direction = DVec3::new(0.48, 0.6, 0.64);
         let line = crate::line::Line::new(sum / count, direction);
         let mut crossings = Vec::new();

@@ -2,7 +2,7 @@
 
 use crate::bend::Normals;
 use crate::line::{Line, ROUNDING};
-use crate::traverse::{Query, Stack, TriangleHit};
+use crate::wide::{Query, Stack, TriangleHit};
 use crate::world::{Body, World};
 use glam::DVec3;
 use scenes::noise::bumped;
@@ -123,7 +123,7 @@ impl World {
     /// Cosine between a line and the surface's normal at a crossing, ≥ 0.
     pub(crate) fn cosine(&self, line: &Line, crossing: &Crossing) -> f64 {
         let normal = match crossing.place {
-            Place::Triangle { slot, .. } => self.tree.triangles[slot as usize].normal(),
+            Place::Triangle { slot, .. } => self.tree.triangle(slot).normal(),
             Place::Analytic { normal, .. } => normal,
         };
         line.direction.dot(normal).abs()
@@ -135,7 +135,7 @@ impl World {
         let (position, geometric, margin, mut shading) = match crossing.place {
             Place::Analytic { point, normal } => (point, normal, f64::INFINITY, normal),
             Place::Triangle { slot, weights } => {
-                let triangle = &self.tree.triangles[slot as usize];
+                let triangle = self.tree.triangle(slot);
                 let geometric = triangle.normal();
                 let shading = body.smooth.as_ref().map_or(geometric, |smooth| {
                     let n = smooth.at((crossing.id - body.first_id) as usize, weights);

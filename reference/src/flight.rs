@@ -9,7 +9,7 @@
 use crate::crossing::{Crossing, Departed, Spot};
 use crate::line::Line;
 use crate::media::Media;
-use crate::traverse::Stack;
+use crate::wide::Stack;
 use crate::world::{Role, World};
 use glam::DVec3;
 use scenes::{MediumId, Ray};

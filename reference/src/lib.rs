@@ -30,14 +30,16 @@ mod sampling;
 mod topology;
 mod tracer;
 mod trapped;
-mod traverse;
-mod tree;
 mod triangle;
+mod triangles;
 #[cfg(test)]
 mod watertight;
+mod wide;
 mod world;
 
 pub use error::Error;
 pub use frame::{Watch, render, render_watched};
 pub use plan::plan;
 pub use request::{EnvironmentLookup, Estimator, Fresnel, Level, Request, Restriction};
+pub use triangles::{Hit, Triangles};
+pub use wide::Instructions;

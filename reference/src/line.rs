@@ -11,14 +11,14 @@ use glam::{DVec2, DVec3};
 pub(crate) const ROUNDING: f64 = 1.0 / (1u64 << 44) as f64;
 
 /// A line with its shear. Positions along it are t times the unit direction.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Line {
     pub(crate) origin: DVec3,
     pub(crate) direction: DVec3,
     /// 1 / direction, with zeros replaced so that no product is NaN.
     pub(crate) inverse: DVec3,
-    axes: [usize; 3],
-    shear: DVec2,
+    pub(crate) axes: [usize; 3],
+    pub(crate) shear: DVec2,
     inverse_z: f64,
 }
 

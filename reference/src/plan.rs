@@ -101,7 +101,7 @@ impl Variant {
             let reason = "no medium is dispersive, or the chain follows the d line alone";
             plan.leave_out(Kind::Pass, "traces for red and blue", reason, 0);
         }
-        if world.tree.triangles.is_empty() {
+        if world.tree.len() == 0 {
             plan.leave_out(Kind::Buffer, "tree", "no body is a mesh", 0);
         }
         if !columns.needs_chain {
@@ -141,7 +141,7 @@ impl Counters {
             ("reconciled", self.reconciled),
             ("left_inside", self.left_inside),
             ("capped", self.capped),
-            ("triangles", world.tree.triangles.len() as u64),
+            ("triangles", world.tree.len() as u64),
             ("geometry_bytes", world.bytes()),
         ];
         list.into_iter().map(|(name, count)| (name.to_owned(), count)).collect()

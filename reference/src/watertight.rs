@@ -8,7 +8,7 @@ mod common;
 use crate::crossing::Crossing;
 use crate::line::Line;
 use crate::request::Level;
-use crate::traverse::Stack;
+use crate::wide::Stack;
 use crate::world::World;
 use common::{furnace, meshes, object};
 use glam::DVec3;

@@ -5,8 +5,9 @@ use crate::line::Line;
 use crate::normals::{Smooth, smooth_normals};
 use crate::request::Level;
 use crate::topology::unmatched_edges;
-use crate::tree::{MOST_TRIANGLES, Tree};
+
 use crate::triangle::Triangle;
+use crate::wide::{MOST_TRIANGLES, Tree};
 use glam::{DAffine3, DMat3, DVec3};
 use scenes::air::bubbles;
 use scenes::crack::cracks;

@@ -1,0 +1,72 @@
+//! Which instructions run the inner loops: decided by the CPU the program is on.
+
+use super::kernel::{Kernel, Portable};
+#[cfg(target_arch = "x86_64")]
+use super::simd::{Avx2, Avx512};
+
+/// Sets of instructions that the tree knows. All answer with the same bits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Instructions {
+    /// What every CPU of the target has.
+    Portable,
+    /// AVX2.
+    Avx2,
+    /// AVX-512 F and VL.
+    Avx512,
+}
+
+impl Instructions {
+    /// Those that this CPU has, the fastest last.
+    #[must_use]
+    pub fn available() -> Vec<Self> {
+        let all = [Self::Portable, Self::Avx2, Self::Avx512];
+        all.into_iter().filter(|kind| Detected::new(*kind).is_some()).collect()
+    }
+}
+
+/// Instructions that this CPU has.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Detected {
+    Portable,
+    #[cfg(target_arch = "x86_64")]
+    Avx2(Avx2),
+    #[cfg(target_arch = "x86_64")]
+    Avx512(Avx512),
+}
+
+/// What runs on a kernel, whichever it is.
+pub(crate) trait Job {
+    type Output;
+
+    fn run<K: Kernel>(self, kernel: K) -> Self::Output;
+}
+
+impl Detected {
+    pub(crate) fn new(kind: Instructions) -> Option<Self> {
+        match kind {
+            Instructions::Portable => Some(Self::Portable),
+            #[cfg(target_arch = "x86_64")]
+            Instructions::Avx2 => Avx2::detect().map(Self::Avx2),
+            #[cfg(target_arch = "x86_64")]
+            Instructions::Avx512 => Avx512::detect().map(Self::Avx512),
+            #[cfg(not(target_arch = "x86_64"))]
+            _ => None,
+        }
+    }
+
+    pub(crate) fn best() -> Self {
+        let best = Self::new(Instructions::Avx512).or_else(|| Self::new(Instructions::Avx2));
+        best.unwrap_or(Self::Portable)
+    }
+
+    #[inline(always)]
+    pub(crate) fn run<J: Job>(self, job: J) -> J::Output {
+        match self {
+            Self::Portable => job.run(Portable),
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx2(kernel) => kernel.run(job),
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512(kernel) => kernel.run(job),
+        }
+    }
+}

@@ -1,0 +1,177 @@
+//! The tree of boxes over all triangles, eight children to a node.
+//!
+//! obvhs finds a good binary tree; the wide nodes, the layout and the order of
+//! the triangles are ours. Boxes are f32 and prune only; triangles are f64.
+
+mod collapse;
+mod instructions;
+mod kernel;
+mod node;
+mod ray;
+#[cfg(target_arch = "x86_64")]
+mod simd;
+mod stack;
+mod walk;
+
+pub(crate) use instructions::Detected;
+pub use instructions::Instructions;
+pub(crate) use stack::Stack;
+pub(crate) use walk::{Query, TriangleHit};
+
+use crate::triangle::Triangle;
+use collapse::{Costs, Part};
+use glam::DVec3;
+use node::{Block, Child, LANES, Node, Unit};
+use obvhs::BvhBuildParams;
+use obvhs::aabb::Aabb;
+use obvhs::bvh2::Bvh2;
+use obvhs::bvh2::builder::build_bvh2;
+use rayon::prelude::*;
+
+/// Most triangles one scene can have.
+pub(crate) const MOST_TRIANGLES: usize = 1 << 28;
+
+/// Triangles in the order of the leaves, and the nodes above them.
+#[derive(Clone, Debug)]
+pub(crate) struct Tree {
+    nodes: Vec<Node>,
+    blocks: Vec<Block>,
+    root: Option<Child>,
+    unit: Unit,
+    count: usize,
+    pub(crate) instructions: Detected,
+}
+
+impl Default for Tree {
+    fn default() -> Self {
+        Self {
+            nodes: Vec::new(),
+            blocks: Vec::new(),
+            root: None,
+            unit: Unit::default(),
+            count: 0,
+            instructions: Detected::best(),
+        }
+    }
+}
+
+impl Tree {
+    /// Builds the tree; the number of triangles is at most [`MOST_TRIANGLES`].
+    /// Triangles with a corner that is not finite are left out.
+    pub(crate) fn build(mut triangles: Vec<Triangle>) -> Self {
+        triangles.retain(|t| t.corners.iter().flatten().all(|x| x.is_finite()));
+        let mut tree = Self { count: triangles.len(), ..Self::default() };
+        if triangles.is_empty() {
+            return tree;
+        }
+        let (low, high) = triangles
+            .par_iter()
+            .map(bounds)
+            .reduce(|| (DVec3::INFINITY, DVec3::NEG_INFINITY), |a, b| (a.0.min(b.0), a.1.max(b.1)));
+        tree.unit = Unit::around(low, high);
+        let boxes: Vec<Aabb> = triangles.par_iter().map(|t| unit_box(t, &tree.unit)).collect();
+        let bvh = build_bvh2(&boxes, parameters(boxes.len()), &mut std::time::Duration::default());
+        drop(boxes);
+        tree.fill(&bvh, &triangles);
+        tree
+    }
+
+    /// Copies the best wide form of a binary tree, depth first, so that what is
+    /// visited together lies together.
+    fn fill(&mut self, bvh: &Bvh2, triangles: &[Triangle]) {
+        let costs = Costs::new(bvh);
+        let root = costs.part(0);
+        let mut todo = Vec::new();
+        self.root = Some(match root {
+            Part::Block(index) => self.block(&costs, index, triangles),
+            Part::Node(index) => {
+                self.nodes.push(Node::EMPTY);
+                todo.push((index, 0));
+                Child::node(0)
+            }
+        });
+        while let Some((index, mine)) = todo.pop() {
+            let first = todo.len();
+            for (i, part) in costs.children(index).into_iter().enumerate() {
+                let (of, child) = match part {
+                    Part::Block(of) => (of, self.block(&costs, of, triangles)),
+                    Part::Node(of) => {
+                        self.nodes.push(Node::EMPTY);
+                        todo.push((of, self.nodes.len() - 1));
+                        (of, Child::node(self.nodes.len() - 1))
+                    }
+                };
+                let bounds = bvh.nodes[of].aabb();
+                let node: &mut Node = &mut self.nodes[mine];
+                for axis in 0..3 {
+                    node.planes[axis][0][i] = bounds.min[axis];
+                    node.planes[axis][1][i] = bounds.max[axis];
+                }
+                node.children[i] = child;
+            }
+            todo[first..].reverse();
+        }
+        self.nodes.shrink_to_fit();
+        self.blocks.shrink_to_fit();
+    }
+
+    fn block(&mut self, costs: &Costs<'_>, index: usize, triangles: &[Triangle]) -> Child {
+        let mut block = Block::EMPTY;
+        let mut list = Vec::with_capacity(LANES);
+        costs.triangles(index, &mut list);
+        for (lane, triangle) in list.into_iter().enumerate() {
+            block.set(lane, &triangles[triangle as usize]);
+        }
+        self.blocks.push(block);
+        Child::block(self.blocks.len() - 1)
+    }
+
+    /// How many triangles.
+    pub(crate) fn len(&self) -> usize {
+        self.count
+    }
+
+    /// The triangle that the tree keeps in a slot.
+    #[inline(always)]
+    pub(crate) fn triangle(&self, slot: u32) -> Triangle {
+        self.blocks[slot as usize / LANES].triangle(slot as usize % LANES)
+    }
+
+    /// All triangles, in the order of the tree.
+    pub(crate) fn triangles(&self) -> impl Iterator<Item = Triangle> {
+        let lanes =
+            |block: &'_ Block| (0..LANES).map(|lane| block.triangle(lane)).collect::<Vec<_>>();
+        self.blocks.iter().flat_map(lanes).filter(|triangle| triangle.id != u32::MAX)
+    }
+
+    /// Bytes held.
+    pub(crate) fn bytes(&self) -> u64 {
+        (self.nodes.capacity() * size_of::<Node>() + self.blocks.capacity() * size_of::<Block>())
+            as u64
+    }
+}
+
+/// How obvhs builds: with more care where it takes no time.
+fn parameters(count: usize) -> BvhBuildParams {
+    let base = BvhBuildParams { max_prims_per_leaf: 1, ..BvhBuildParams::medium_build() };
+    if count > 1_000_000 {
+        return base;
+    }
+    BvhBuildParams { reinsertion_batch_ratio: 0.5, ..base }
+}
+
+fn bounds(triangle: &Triangle) -> (DVec3, DVec3) {
+    let [a, b, c] = [0, 1, 2].map(|i| triangle.corner(i));
+    (a.min(b).min(c), a.max(b).max(c))
+}
+
+/// The box of a triangle in unit coordinates, rounded outwards.
+fn unit_box(triangle: &Triangle, unit: &Unit) -> Aabb {
+    // Not to the next number: next to zero those are subnormal, and slow.
+    const LEAST: f32 = 1e-18;
+    let (low, high) = bounds(triangle);
+    let down = unit.of(low).as_vec3a();
+    let up = unit.of(high).as_vec3a();
+    let [below, above] = [down, up].map(|x| x.abs() * f32::EPSILON + LEAST);
+    Aabb::new(down - below, up + above)
+}

@@ -1,0 +1,177 @@
+//! The inner loops in AVX2 and AVX-512, chosen when the program runs.
+#![allow(unsafe_code, reason = "vector instructions; every use is behind a check of the CPU")]
+
+use super::instructions::Job;
+use super::kernel::Kernel;
+use super::node::{Block, Node, WIDTH};
+use super::ray::BoxRay;
+use crate::line::Line;
+use std::arch::x86_64::*;
+
+/// 256-bit vectors. Made only where the CPU has AVX2.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Avx2(());
+
+#[derive(Clone, Copy)]
+pub(crate) struct Boxes {
+    inverse: [__m256; 3],
+    enter: [__m256; 3],
+    leave: [__m256; 3],
+    first: [usize; 3],
+    low: __m256,
+}
+
+#[derive(Clone, Copy)]
+pub(crate) struct Lanes {
+    origin: [__m256d; 3],
+    shear: [__m256d; 2],
+    axes: [usize; 3],
+}
+
+impl Kernel for Avx2 {
+    type Boxes = Boxes;
+    type Lanes = Lanes;
+
+    #[inline(always)]
+    fn boxes(self, ray: &BoxRay, low: f32) -> Boxes {
+        // SAFETY: `self` exists, so the CPU has AVX2.
+        unsafe {
+            Boxes {
+                inverse: splat3(ray.inverse),
+                enter: splat3(ray.enter),
+                leave: splat3(ray.leave),
+                first: ray.first,
+                low: _mm256_set1_ps(low),
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn lanes(self, line: &Line) -> Lanes {
+        let [x, y, z] = line.axes;
+        // SAFETY: `self` exists, so the CPU has AVX2.
+        unsafe {
+            Lanes {
+                origin: [
+                    _mm256_set1_pd(line.origin[x]),
+                    _mm256_set1_pd(line.origin[y]),
+                    _mm256_set1_pd(line.origin[z]),
+                ],
+                shear: [_mm256_set1_pd(line.shear.x), _mm256_set1_pd(line.shear.y)],
+                axes: line.axes,
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn meet(self, ray: &Boxes, node: &Node, limit: f32) -> (u32, [f32; WIDTH]) {
+        // SAFETY: `self` exists, so the CPU has AVX2.
+        unsafe {
+            let (x0, x1) = passages(ray, node, 0);
+            let (y0, y1) = passages(ray, node, 1);
+            let (z0, z1) = passages(ray, node, 2);
+            let near = _mm256_max_ps(_mm256_max_ps(x0, y0), _mm256_max_ps(z0, ray.low));
+            let limit = _mm256_set1_ps(limit);
+            let far = _mm256_min_ps(_mm256_min_ps(x1, y1), _mm256_min_ps(z1, limit));
+            let mask = _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(near, far)) as u32;
+            let mut out = [0.0; WIDTH];
+            _mm256_storeu_ps(out.as_mut_ptr(), near);
+            (mask, out)
+        }
+    }
+
+    #[inline(always)]
+    fn candidates(self, line: &Lanes, block: &Block) -> u32 {
+        // SAFETY: `self` exists, so the CPU has AVX2.
+        unsafe {
+            let (a, b, c) = (see(line, block, 0), see(line, block, 1), see(line, block, 2));
+            let (u, v, w) = (cross(c, b), cross(a, c), cross(b, a));
+            let zero = _mm256_setzero_pd();
+            let least = _mm256_min_pd(_mm256_min_pd(u, v), w);
+            let most = _mm256_max_pd(_mm256_max_pd(u, v), w);
+            let all = _mm256_cmp_pd::<_CMP_GE_OQ>(least, zero);
+            let none = _mm256_cmp_pd::<_CMP_LE_OQ>(most, zero);
+            _mm256_movemask_pd(_mm256_or_pd(all, none)) as u32
+        }
+    }
+}
+
+#[inline(always)]
+unsafe fn splat3([x, y, z]: [f32; 3]) -> [__m256; 3] {
+    unsafe { [_mm256_set1_ps(x), _mm256_set1_ps(y), _mm256_set1_ps(z)] }
+}
+
+/// Where the line enters and leaves the children's slabs of one axis.
+#[inline(always)]
+unsafe fn passages(ray: &Boxes, node: &Node, axis: usize) -> (__m256, __m256) {
+    let first = ray.first[axis] & 1;
+    let planes = &node.planes[axis];
+    unsafe {
+        let enter = _mm256_load_ps(planes[first].as_ptr());
+        let leave = _mm256_load_ps(planes[first ^ 1].as_ptr());
+        (
+            _mm256_add_ps(_mm256_mul_ps(enter, ray.inverse[axis]), ray.enter[axis]),
+            _mm256_add_ps(_mm256_mul_ps(leave, ray.inverse[axis]), ray.leave[axis]),
+        )
+    }
+}
+
+/// [`Line::see`] without t.
+#[inline(always)]
+unsafe fn see(line: &Lanes, block: &Block, corner: usize) -> (__m256d, __m256d) {
+    let corner = &block.corners[corner];
+    let [x, y, z] = line.axes;
+    unsafe {
+        let depth = _mm256_sub_pd(_mm256_load_pd(corner[z].as_ptr()), line.origin[2]);
+        let across = _mm256_sub_pd(_mm256_load_pd(corner[x].as_ptr()), line.origin[0]);
+        let along = _mm256_sub_pd(_mm256_load_pd(corner[y].as_ptr()), line.origin[1]);
+        (
+            _mm256_sub_pd(across, _mm256_mul_pd(line.shear[0], depth)),
+            _mm256_sub_pd(along, _mm256_mul_pd(line.shear[1], depth)),
+        )
+    }
+}
+
+#[inline(always)]
+unsafe fn cross(p: (__m256d, __m256d), q: (__m256d, __m256d)) -> __m256d {
+    unsafe { _mm256_sub_pd(_mm256_mul_pd(p.0, q.1), _mm256_mul_pd(p.1, q.0)) }
+}
+
+/// [`Avx2`] where the compiler may use what AVX-512 adds to it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Avx512(Avx2);
+
+impl Avx2 {
+    pub(crate) fn detect() -> Option<Self> {
+        is_x86_feature_detected!("avx2").then_some(Self(()))
+    }
+
+    #[inline(always)]
+    pub(crate) fn run<J: Job>(self, job: J) -> J::Output {
+        // SAFETY: `self` exists, so the CPU has AVX2.
+        unsafe { avx2(self, job) }
+    }
+}
+
+impl Avx512 {
+    pub(crate) fn detect() -> Option<Self> {
+        let has = is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512vl");
+        Avx2::detect().filter(|_| has).map(Self)
+    }
+
+    #[inline(always)]
+    pub(crate) fn run<J: Job>(self, job: J) -> J::Output {
+        // SAFETY: `self` exists, so the CPU has AVX-512 F and VL.
+        unsafe { avx512(self, job) }
+    }
+}
+
+#[target_feature(enable = "avx2")]
+unsafe fn avx2<J: Job>(kernel: Avx2, job: J) -> J::Output {
+    job.run(kernel)
+}
+
+#[target_feature(enable = "avx2,avx512f,avx512vl")]
+unsafe fn avx512<J: Job>(kernel: Avx512, job: J) -> J::Output {
+    job.run(kernel.0)
+}
