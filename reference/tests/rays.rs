@@ -64,7 +64,7 @@ fn every_set_of_instructions_answers_with_the_same_bits() {
                 tree
             })
             .collect();
-        for _ in 0..400_000 {
+        for _ in 0..180_000 {
             let ray = aimed(&corners, &mut dice);
             let skip = [u32::MAX, dice.pick(corners.len()) as u32][dice.pick(2)];
             let answers: Vec<Option<Hit>> =
