@@ -5,16 +5,15 @@
 //! the page (light and dark) and as a file of its own (black on white).
 
 mod axis;
+mod labels;
 mod marks;
 
 pub use marks::escape;
 
 use super::number::digits;
 use axis::Axis;
-use marks::{
-    BOTTOM, COLOURS, FAINT, HEIGHT, INK, LEFT, RIGHT, TOP, WIDTH, free_height, line, marker, power,
-    text,
-};
+use labels::{Area, free_label};
+use marks::{BOTTOM, COLOURS, FAINT, HEIGHT, INK, LEFT, RIGHT, TOP, WIDTH, line, marker, text};
 use std::fmt::Write;
 
 /// One method in a plot.
@@ -103,27 +102,21 @@ impl Plot {
 
     fn draw_axes(&self, svg: &mut String, x: &Axis, y: &Axis) {
         let (bottom, right) = (HEIGHT - BOTTOM, WIDTH - RIGHT);
-        for decade in x.decades() {
-            let at = x.place(10f64.powi(decade));
+        for (value, label) in x.labelled() {
+            let at = x.place(value);
             line(svg, [at, TOP, at, bottom], FAINT, "");
-            text(svg, [at, bottom + 16.0], "middle", &power(decade));
+            text(svg, [at, bottom + 16.0], "middle", &label);
         }
-        for decade in y.decades() {
-            let at = y.place(10f64.powi(decade));
+        for (value, label) in y.labelled() {
+            let at = y.place(value);
             line(svg, [LEFT, at, right, at], FAINT, "");
-            text(svg, [LEFT - 6.0, at + 4.0], "end", &power(decade));
+            text(svg, [LEFT - 6.0, at + 4.0], "end", &label);
         }
-        for (axis, vertical) in [(x, false), (y, true)] {
-            for decade in axis.low..axis.high {
-                for k in 2..10 {
-                    let at = axis.place(f64::from(k) * 10f64.powi(decade));
-                    if vertical {
-                        line(svg, [LEFT, at, LEFT + 4.0, at], INK, "");
-                    } else {
-                        line(svg, [at, bottom, at, bottom - 4.0], INK, "");
-                    }
-                }
-            }
+        for at in x.marked().map(|value| x.place(value)) {
+            line(svg, [at, bottom, at, bottom - 4.0], INK, "");
+        }
+        for at in y.marked().map(|value| y.place(value)) {
+            line(svg, [LEFT, at, LEFT + 4.0, at], INK, "");
         }
         line(svg, [LEFT, bottom, right, bottom], INK, "");
         line(svg, [LEFT, TOP, LEFT, bottom], INK, "");
@@ -187,15 +180,22 @@ impl Plot {
     }
 
     fn draw_points(&self, svg: &mut String, x: &Axis, y: &Axis) {
+        let place = |point: &Point| [x.place(point.time_ms), y.place(point.error)];
+        let mut taken: Vec<Area> = self.shown().map(|p| Area::of_marker(place(p))).collect();
+        taken.extend(self.curve.iter().map(|c| Area::of_marker([x.place(c.0), y.place(c.1)])));
         let mut order: Vec<&Point> = self.shown().collect();
-        order.sort_by(|a, b| b.error.total_cmp(&a.error));
-        let mut labels: Vec<[f64; 3]> = Vec::new();
+        order.sort_by(|a, b| a.time_ms.total_cmp(&b.time_ms));
         for point in order {
-            let (px, py) = (x.place(point.time_ms), y.place(point.error));
+            let at = place(point);
             let colour = COLOURS[point.style % COLOURS.len()];
             if let Some((low, high)) = point.interval.filter(|(low, _)| *low > 0.0) {
-                let (top, bottom) = (y.place(high), y.place(low));
-                line(svg, [px, top, px, bottom], colour, " stroke-width=\"1.5\"");
+                let ends = [at[0], y.place(high), at[0], y.place(low)];
+                line(svg, ends, colour, " stroke-width=\"1.5\"");
+            }
+            let label = free_label(&point.name, at, &taken);
+            taken.push(label.area);
+            if let Some(from) = label.leader {
+                line(svg, [at[0], at[1], from[0], from[1]], INK, " opacity=\"0.4\"");
             }
             let name = escape(&point.name);
             let (error, time) = (digits(point.error), super::number::duration(point.time_ms));
@@ -203,15 +203,9 @@ impl Plot {
                 svg,
                 "<g fill=\"{colour}\" stroke=\"var(--paper, #fff)\">\
                  <title>{name}: {error}, {time}</title>{}</g>",
-                marker(point.style, px, py)
+                marker(point.style, at[0], at[1])
             );
-            let width = point.name.chars().count() as f64 * 6.6;
-            let leftwards = px + 10.0 + width > WIDTH - RIGHT;
-            let (anchor, tx) = if leftwards { ("end", px - 9.0) } else { ("start", px + 9.0) };
-            let span = if leftwards { [tx - width, tx] } else { [tx, tx + width] };
-            let ty = free_height(&labels, span, py + 4.0);
-            labels.push([span[0], span[1], ty]);
-            text(svg, [tx, ty], anchor, &point.name);
+            text(svg, label.at, label.anchor, &point.name);
         }
     }
 }
