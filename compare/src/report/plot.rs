@@ -153,7 +153,7 @@ impl Plot {
         }
         let (x, y) = (x.place(curve[0].0), y.place(curve[0].1));
         let (anchor, dx) = if x > WIDTH - 130.0 { ("end", -8.0) } else { ("start", 8.0) };
-        text(svg, [x + dx, y - 5.0], anchor, "exact renderer");
+        text(svg, [x + dx, y - 9.0], anchor, "exact renderer");
     }
 
     /// Steps through the methods that no other beats in both time and error.

@@ -5,7 +5,7 @@ use std::fmt::Write;
 pub(super) const WIDTH: f64 = 560.0;
 pub(super) const HEIGHT: f64 = 380.0;
 pub(super) const LEFT: f64 = 64.0;
-pub(super) const RIGHT: f64 = 16.0;
+pub(super) const RIGHT: f64 = 24.0;
 pub(super) const TOP: f64 = 14.0;
 pub(super) const BOTTOM: f64 = 48.0;
 pub(super) const INK: &str = "var(--ink, #1b1f24)";
