@@ -82,7 +82,7 @@ pub(super) fn run(args: &Args, output: Output) -> Result<Status, Error> {
     }
     output.line(&table(&summary(&study, &rows)))?;
     for NotDone { what, reason } in &study.left_out {
-        output.line(&format!("left out: {what}: {reason}"))?;
+        output.line(&format!("left out: {what}: {}", reason.replace('\n', "; ")))?;
     }
     output.line(&format!("{} in {:.0} s", study.adapter, study.elapsed_s))?;
     output.line(&format!("report: {}", args.out.join("report.html").display()))?;
