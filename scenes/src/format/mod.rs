@@ -3,6 +3,12 @@
 //! Every error names file, line and column, says what is wrong and what to
 //! write instead. Unknown keys are errors. A key that is valid and that some
 //! renderer cannot show yet is that renderer's business.
+//!
+//! Every key there is, in one scene:
+//!
+//! ```toml
+#![doc = include_str!("complete.toml")]
+//! ```
 
 mod body;
 mod choice;
