@@ -8,6 +8,7 @@
 pub mod air;
 pub mod builtin;
 pub mod camera;
+mod columns;
 pub mod crack;
 pub mod deform;
 pub mod distance;

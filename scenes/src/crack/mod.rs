@@ -6,6 +6,10 @@
 //! refractions and reflections in natural objects", SIGRAD 2006. Shape and poses
 //! are not in the paper; ours are stated here.
 
+mod clip;
+
+pub use clip::clipped;
+
 use crate::noise::{SplitMix64, fbm};
 use crate::pose::{centre_and_diagonal, offset, placed, rotation};
 use crate::scene::Crack;

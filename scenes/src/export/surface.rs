@@ -2,7 +2,7 @@
 //! normals only where the scene shades with them.
 
 use super::{ExportError, Format, write_text};
-use crate::{Mesh, Object, Shape, scene::Normals};
+use crate::{Object, Shape, normals, scene::Normals};
 use glam::DVec3;
 use std::collections::HashMap;
 use std::fmt::Write as _;
@@ -19,7 +19,7 @@ pub(super) struct Indexed {
 pub(super) fn indexed(object: &Object) -> Option<Indexed> {
     let mesh = object.shape.mesh()?;
     let Some(corner) = mesh.normals.as_ref().filter(|_| object.normals == Normals::Smooth) else {
-        let normals = (object.normals == Normals::Smooth).then(|| angle_weighted(mesh));
+        let normals = (object.normals == Normals::Smooth).then(|| normals::smooth(mesh).values);
         return Some(Indexed {
             positions: mesh.positions.clone(),
             normals,
@@ -39,21 +39,6 @@ pub(super) fn indexed(object: &Object) -> Option<Indexed> {
         }));
     }
     Some(split)
-}
-
-/// Means of the triangles' normals, weighted by the angle at the vertex.
-fn angle_weighted(mesh: &Mesh) -> Vec<DVec3> {
-    let mut sums = vec![DVec3::ZERO; mesh.positions.len()];
-    for (index, triangle) in mesh.triangles.iter().enumerate() {
-        let corners = mesh.corners(index);
-        let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-        for i in 0..3 {
-            let (a, b) = (corners[(i + 1) % 3] - corners[i], corners[(i + 2) % 3] - corners[i]);
-            let angle = a.cross(b).length().atan2(a.dot(b));
-            sums[triangle[i] as usize] += angle * normal.normalize_or_zero();
-        }
-    }
-    sums.into_iter().map(|sum| sum.normalize_or(DVec3::Y)).collect()
 }
 
 /// Writes Wavefront OBJ with as many digits as an f64 has.
