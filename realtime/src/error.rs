@@ -65,10 +65,27 @@ pub enum Error {
         /// What to change.
         advice: String,
     },
+    /// An image that is empty, or larger than any adapter holds.
+    #[error("{0}")]
+    Size(String),
     /// WGSL that does not compile, with the place in the file it came from.
     #[error("{0}")]
     Shader(String),
-    /// The driver reported an error, or the device was lost, during a pass.
+    /// The device went away.
+    #[error("adapter {adapter} was lost: {reason}\nits driver was reset or removed; run again")]
+    Lost {
+        /// Name.
+        adapter: String,
+        /// What the driver said.
+        reason: String,
+    },
+    /// The device has too little memory.
+    #[error("adapter {adapter} has too little memory; lower the resolution or the positions")]
+    OutOfMemory {
+        /// Name.
+        adapter: String,
+    },
+    /// The driver reported an error during a pass.
     #[error("adapter {adapter}: {what}")]
     Device {
         /// Name.

@@ -4,6 +4,7 @@ use crate::Error;
 use serde::{Deserialize, Serialize};
 use std::future::Future;
 use std::pin::pin;
+use std::sync::{Arc, OnceLock};
 use std::task::{Context, Poll, Waker};
 
 /// One adapter as wgpu lists it.
@@ -27,6 +28,7 @@ pub struct Gpu {
     pub(crate) queue: wgpu::Queue,
     pub(crate) timestamps: bool,
     info: AdapterInfo,
+    lost: Arc<OnceLock<String>>,
 }
 
 /// What can be used here, in wgpu's order.
@@ -83,7 +85,13 @@ impl Gpu {
             Error::Open { adapter: info.name.clone(), reason: error.to_string() }
         })?;
         let timestamps = features.contains(wgpu::Features::TIMESTAMP_QUERY);
-        Ok(Self { device, queue, timestamps, info })
+        let lost = Arc::new(OnceLock::new());
+        let seen = Arc::clone(&lost);
+        device.set_device_lost_callback(move |reason, message| {
+            // Only the first reason matters.
+            let _ = seen.set(format!("{reason:?} {message}"));
+        });
+        Ok(Self { device, queue, timestamps, info, lost })
     }
 
     /// Which adapter this is.
@@ -94,11 +102,17 @@ impl Gpu {
 
     /// Runs `work` and turns any error the driver reports into ours.
     pub(crate) fn scoped<T>(&self, work: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
+        let internal = self.device.push_error_scope(wgpu::ErrorFilter::Internal);
         let validation = self.device.push_error_scope(wgpu::ErrorFilter::Validation);
         let memory = self.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
         let result = work();
-        let reported = [block_on(memory.pop()), block_on(validation.pop())];
+        let reported = [memory, validation, internal].map(|scope| block_on(scope.pop()));
+        let adapter = self.info.name.clone();
+        if let Some(reason) = self.lost.get() {
+            return Err(Error::Lost { adapter, reason: reason.clone() });
+        }
         match reported.into_iter().flatten().next() {
+            Some(wgpu::Error::OutOfMemory { .. }) => Err(Error::OutOfMemory { adapter }),
             Some(error) => Err(self.failed(&error)),
             None => result,
         }
@@ -107,6 +121,10 @@ impl Gpu {
     /// Waits until the GPU has nothing left to do.
     pub(crate) fn wait(&self) -> Result<(), Error> {
         let waited = self.device.poll(wgpu::PollType::wait_indefinitely());
+        if let Some(reason) = self.lost.get() {
+            let (adapter, reason) = (self.info.name.clone(), reason.clone());
+            return Err(Error::Lost { adapter, reason });
+        }
         waited.map(|_| ()).map_err(|error| self.failed(&error))
     }
 

@@ -4,7 +4,7 @@
 use crate::composition::{Composition, OUTPUTS};
 use crate::geometry::{Corner, Geometry};
 use crate::method::{Method, Settings};
-use crate::render::{self, Request};
+use crate::render::{self, Part, Request};
 use crate::uniforms::{self, Bodies};
 use crate::{Error, Filter};
 use encase::ShaderType;
@@ -21,23 +21,49 @@ pub fn plan(scene: &Scene, request: &Request) -> Result<Plan, Error> {
     let geometry = Geometry::new(scene, request.view.frame)?;
     let camera = render::camera(scene, request);
     let outputs = render::outputs(method, request)?;
-    let composition =
-        Composition::new(method, &settings, scene, &camera, &geometry, request, outputs)?;
-    Ok(of(&composition, scene, &geometry, request, None))
+    let mut plan = Plan::default();
+    for part in render::parts(request, &outputs) {
+        let (request, outputs) = (&part.request, part.outputs.clone());
+        let composition =
+            Composition::new(method, &settings, scene, &camera, &geometry, request, outputs)?;
+        add(&mut plan, &composition, scene, &geometry, &part, None);
+    }
+    Ok(plan)
 }
 
-/// The plan of a composition. The number of layers is counted on the GPU; before
+/// Adds a frame to a plan. What is left out is told once, for the first.
+pub(crate) fn add(
+    plan: &mut Plan,
+    composition: &Composition,
+    scene: &Scene,
+    geometry: &Geometry,
+    part: &Part,
+    layers: Option<u32>,
+) {
+    let of_frame = of(composition, scene, geometry, &part.request, part.scale, layers);
+    if part.label.is_empty() {
+        *plan = of_frame;
+        return;
+    }
+    let labelled = |name: &str| format!("{}{name}", part.label);
+    plan.passes.extend(of_frame.passes.iter().map(|name| labelled(name)));
+    let buffers = of_frame.buffers.iter();
+    let labelled = buffers.map(|b| Buffer { name: labelled(&b.name), bytes: b.bytes });
+    plan.buffers.extend(labelled);
+}
+
+/// The plan of one frame. The number of layers is counted on the GPU; before
 /// that, the bytes of one layer are stated.
-pub(crate) fn of(
+fn of(
     composition: &Composition,
     scene: &Scene,
     geometry: &Geometry,
     request: &Request,
+    scale: u32,
     layers: Option<u32>,
 ) -> Plan {
     let mut plan = Plan::default();
-    let k = request.view.positions_per_axis;
-    let [width, height] = request.view.resolution_px.map(|n| u64::from(n * k));
+    let [width, height] = request.view.resolution_px.map(|n| u64::from(n * scale));
     let pixels = width * height;
     plan.passes.push("front".to_owned());
     let mut add =

@@ -7,7 +7,7 @@ use crate::method::{Method, Settings};
 use crate::recorder::{Allocator, Executed, Recorder};
 use crate::{Error, Gpu, plan, readback};
 use scenes::rendering::{Pass, Provenance, Time, TimeSource};
-use scenes::{Camera, LayerName, Layers, Rendering, Scene, View};
+use scenes::{Camera, LayerName, Layers, Plan, Rendering, Scene, View};
 use std::collections::BTreeMap;
 use std::time::Instant;
 
@@ -46,7 +46,9 @@ impl Default for Timing {
 /// Renders a scene with a method.
 ///
 /// Radiance is the mean over k x k positions of a frame k times as large; the
-/// direction layers come from a frame of their own at pixel centres.
+/// direction layers come from a frame of their own at pixel centres. What is
+/// timed is a third one: one position per pixel, light only, filtered by the
+/// hardware.
 ///
 /// # Errors
 /// If the request does not fit the method, or the GPU fails.
@@ -73,37 +75,41 @@ struct Job<'a> {
 impl Job<'_> {
     fn run(&self, wanted: &[&'static str]) -> Result<Rendering, Error> {
         let mut layers = Layers::new(self.request.view.resolution_px);
-        let k = self.request.view.positions_per_axis.max(1);
-        let colour = wanted.contains(&"radiance");
-        let single: Vec<_> =
-            wanted.iter().copied().filter(|output| k == 1 || *output != "radiance").collect();
-        let mut ran = None;
-        if colour && k > 1 {
-            let run = self.frame(vec!["radiance"], k)?;
-            self.read_radiance(&run, k, &mut layers)?;
-            ran = Some(run);
+        let mut done = Done::default();
+        let mut plan = Plan::default();
+        for part in parts(self.request, wanted) {
+            let part = part.on(self.gpu);
+            let ran = self.frame(&part)?;
+            let layers_held = ran.frame.layers();
+            plan::add(&mut plan, &ran.composition, self.scene, self.geometry, &part, layers_held);
+            done.bytes += ran.allocator.allocated().iter().map(|buffer| buffer.bytes).sum::<u64>();
+            let timed = match (part.label, self.request.timing) {
+                (TIMED, Some(timing)) => self.time(&ran.frame, timing)?,
+                _ => Vec::new(),
+            };
+            done.add(part.label, &ran.executed.passes, &timed);
+            if part.label == TIMED {
+                continue;
+            }
+            if part.outputs.contains(&"radiance") {
+                self.read_radiance(&ran, part.scale, &mut layers)?;
+            }
+            if part.scale == 1 {
+                self.read_single(&ran, &part.request, &mut layers)?;
+            }
         }
-        if !single.is_empty() || !self.buffers().is_empty() {
-            let run = self.frame(single, 1)?;
-            self.read_single(&run, k == 1, &mut layers)?;
-            ran = ran.or(Some(run));
-        }
-        let ran = match ran {
-            Some(ran) => ran,
-            None => self.frame(Vec::new(), 1)?,
-        };
-        self.answer(&ran, layers)
+        Ok(self.answer(done, plan, layers))
     }
 
-    fn frame(&self, outputs: Vec<&'static str>, scale: u32) -> Result<Ran<'_>, Error> {
+    fn frame(&self, part: &Part) -> Result<Ran<'_>, Error> {
         let composition = Composition::new(
             self.method,
             self.settings,
             self.scene,
             &self.camera,
             self.geometry,
-            self.request,
-            outputs,
+            &part.request,
+            part.outputs.clone(),
         )?;
         let allocator = Allocator::new(self.gpu);
         let mut measured = None;
@@ -119,7 +125,7 @@ impl Job<'_> {
             environment: &self.scene.environment,
             camera: &self.camera,
             eta_outside: self.scene.media[0].eta.get(),
-            resolution_px: self.request.view.resolution_px.map(|n| n * scale),
+            resolution_px: self.request.view.resolution_px.map(|n| n * part.scale),
         };
         let frame = Frame::new(self.gpu, &allocator, &composition, &viewed)?;
         let executed = self.once(&frame, false)?;
@@ -130,15 +136,6 @@ impl Job<'_> {
         let mut recorder = Recorder::new(self.gpu, timed);
         frame.record(&mut recorder);
         recorder.finish()
-    }
-
-    /// Names of the intermediate buffers that were asked for.
-    fn buffers(&self) -> Vec<&str> {
-        let names = self.request.view.layers.iter().filter_map(|layer| match layer {
-            LayerName::Buffer(name) => Some(name.as_str()),
-            _ => None,
-        });
-        names.collect()
     }
 
     fn read_radiance(&self, ran: &Ran<'_>, k: u32, layers: &mut Layers) -> Result<(), Error> {
@@ -165,10 +162,12 @@ impl Job<'_> {
         Ok(())
     }
 
-    fn read_single(&self, ran: &Ran<'_>, colour: bool, layers: &mut Layers) -> Result<(), Error> {
-        if colour && ran.composition.outputs.contains(&"radiance") {
-            self.read_radiance(ran, 1, layers)?;
-        }
+    fn read_single(
+        &self,
+        ran: &Ran<'_>,
+        request: &Request,
+        layers: &mut Layers,
+    ) -> Result<(), Error> {
         for (output, name) in
             [("exit", LayerName::Exit), ("first", LayerName::First), ("hit2", LayerName::Hit2)]
         {
@@ -195,11 +194,16 @@ impl Job<'_> {
                 }
             }
         }
-        self.read_buffers(ran, layers)
+        self.read_buffers(ran, request, layers)
     }
 
-    fn read_buffers(&self, ran: &Ran<'_>, layers: &mut Layers) -> Result<(), Error> {
-        for name in self.buffers() {
+    fn read_buffers(
+        &self,
+        ran: &Ran<'_>,
+        request: &Request,
+        layers: &mut Layers,
+    ) -> Result<(), Error> {
+        for name in buffers(request) {
             let values = if name == "thickness" {
                 let (front, back) = (self.read(ran, "front_depth")?, self.read(ran, "back_depth")?);
                 back.iter().zip(&front).map(|(b, f)| f64::from((b - f).max(0.0))).collect()
@@ -235,44 +239,19 @@ impl Job<'_> {
         }
     }
 
-    fn answer(&self, ran: &Ran<'_>, layers: Layers) -> Result<Rendering, Error> {
-        let timed = match self.request.timing {
-            Some(timing) => self.time(&ran.frame, timing)?,
-            None => Vec::new(),
-        };
-        let mut passes: Vec<Pass> = ran
-            .executed
-            .passes
-            .iter()
-            .enumerate()
-            .map(|(index, name)| Pass { name: name.clone(), times: timestamp(&timed, index) })
-            .collect();
-        if !timed.is_empty() {
-            let wall_ms = median(timed.iter().map(|frame| frame.wall_ms));
-            passes.push(Pass {
-                name: "frame".to_owned(),
-                times: vec![Time { source: TimeSource::Wall, milliseconds: wall_ms }],
-            });
-        }
-        let bytes = ran.allocator.allocated().iter().map(|buffer| buffer.bytes).sum();
+    fn answer(&self, done: Done, plan: Plan, layers: Layers) -> Rendering {
         let info = self.gpu.info();
         let counters = [
-            ("passes", ran.executed.passes.len() as u64),
-            ("bytes", bytes),
+            ("passes", done.count),
+            ("bytes", done.bytes),
             ("triangles", self.geometry.corners.len() as u64 / 3),
-            ("timed_frames", timed.len() as u64),
+            ("timed_frames", done.timed_frames),
         ];
-        Ok(Rendering {
+        Rendering {
             layers,
-            passes,
+            passes: done.passes,
             counters: counters.map(|(name, value)| (name.to_owned(), value)).into(),
-            plan: plan::of(
-                &ran.composition,
-                self.scene,
-                self.geometry,
-                self.request,
-                ran.frame.layers(),
-            ),
+            plan,
             provenance: Provenance {
                 renderer: self.method.id.to_owned(),
                 parameters: self.settings.describe(),
@@ -282,7 +261,7 @@ impl Job<'_> {
                 seed: None,
                 version: env!("CARGO_PKG_VERSION").to_owned(),
             },
-        })
+        }
     }
 
     fn time(&self, frame: &Frame, timing: Timing) -> Result<Vec<Executed>, Error> {
@@ -308,6 +287,123 @@ struct Ran<'a> {
     executed: Executed,
 }
 
+/// What all frames of a request did, as the recorder and the allocator saw it.
+#[derive(Default)]
+struct Done {
+    passes: Vec<Pass>,
+    count: u64,
+    bytes: u64,
+    timed_frames: u64,
+}
+
+impl Done {
+    fn add(&mut self, label: &str, executed: &[String], timed: &[Executed]) {
+        self.count += executed.len() as u64;
+        self.timed_frames += timed.len() as u64;
+        let passes = executed.iter().enumerate();
+        self.passes.extend(passes.map(|(index, name)| Pass {
+            name: format!("{label}{name}"),
+            times: timestamp(timed, index),
+        }));
+        if !timed.is_empty() {
+            let milliseconds = median(timed.iter().map(|frame| frame.wall_ms));
+            let times = vec![Time { source: TimeSource::Wall, milliseconds }];
+            self.passes.push(Pass { name: format!("{label}{WHOLE_FRAME}"), times });
+        }
+    }
+}
+
+/// Label of the frame that is timed, and name of the entry with its wall time.
+const TIMED: &str = "timed: ";
+const WHOLE_FRAME: &str = "frame";
+
+/// One frame of a request.
+pub(crate) struct Part {
+    /// Before the names of its passes; empty for the first.
+    pub(crate) label: &'static str,
+    /// The request, reduced to what this frame answers.
+    pub(crate) request: Request,
+    /// Images that shading writes.
+    pub(crate) outputs: Vec<&'static str>,
+    /// Texels along a pixel's side.
+    pub(crate) scale: u32,
+}
+
+impl Part {
+    /// Samplers read 32-bit floats only where the adapter can; elsewhere the
+    /// manual filter is what can be timed.
+    fn on(mut self, gpu: &Gpu) -> Self {
+        if !gpu.device.features().contains(wgpu::Features::FLOAT32_FILTERABLE) {
+            self.request.filter = Filter::Manual;
+        }
+        self
+    }
+}
+
+/// The frames that a request comes to: light at k x k positions, layers at
+/// pixel centres (together with the light where k is 1), and the frame that is
+/// timed, which is what a game would draw: light only, one position, the
+/// hardware's filter.
+pub(crate) fn parts(request: &Request, outputs: &[&'static str]) -> Vec<Part> {
+    let k = request.view.positions_per_axis;
+    let reduced = |keep: fn(&LayerName) -> bool, filter| {
+        let layers = request.view.layers.iter().filter(|layer| keep(layer)).cloned().collect();
+        Request { view: View { layers, ..request.view.clone() }, filter, ..request.clone() }
+    };
+    let mut parts = Vec::new();
+    let light = || vec!["radiance"];
+    if outputs.contains(&"radiance") && k > 1 {
+        let request = reduced(is_light, request.filter);
+        parts.push(Part { label: "", request, outputs: light(), scale: k });
+    }
+    let single = outputs.iter().copied().filter(|output| k == 1 || *output != "radiance");
+    let single: Vec<_> = single.collect();
+    if !single.is_empty() || !buffers(request).is_empty() || parts.is_empty() {
+        let label = if parts.is_empty() { "" } else { "centre: " };
+        let request = reduced(|_| true, request.filter);
+        parts.push(Part { label, request, outputs: single, scale: 1 });
+    }
+    if request.timing.is_some() {
+        let request = reduced(is_light, Filter::Hardware);
+        parts.push(Part { label: TIMED, request, outputs: light(), scale: 1 });
+    }
+    parts
+}
+
+fn is_light(layer: &LayerName) -> bool {
+    matches!(layer, LayerName::Radiance | LayerName::Coverage)
+}
+
+/// Names of the intermediate buffers that were asked for.
+fn buffers(request: &Request) -> Vec<&str> {
+    let names = request.view.layers.iter().filter_map(|layer| match layer {
+        LayerName::Buffer(name) => Some(name.as_str()),
+        _ => None,
+    });
+    names.collect()
+}
+
+/// Most texels along a side that any adapter is asked for.
+const LARGEST_PX: u64 = 32_768;
+
+/// Refuses sizes that have no content, or that no adapter holds.
+fn check_size(request: &Request) -> Result<(), Error> {
+    let [width, height] = request.view.resolution_px;
+    let k = request.view.positions_per_axis;
+    let what = format!("an image of {width} x {height} pixels with {k} x {k} positions");
+    let needed = u64::from(width.max(height)) * u64::from(k);
+    if width == 0 || height == 0 || k == 0 {
+        return Err(Error::Size(format!("{what} is empty; write at least 1 for each")));
+    }
+    if needed > LARGEST_PX {
+        let advice = "lower the resolution or the number of positions";
+        return Err(Error::Size(format!(
+            "{what} is {needed} texels along a side, more than {LARGEST_PX}; {advice}"
+        )));
+    }
+    Ok(())
+}
+
 /// Intermediate buffers that can be asked for as layers.
 pub(crate) const BUFFERS: [&str; 6] =
     ["front_normal", "front_depth", "front_geometric", "back_normal", "back_depth", "thickness"];
@@ -319,6 +415,7 @@ pub(crate) fn camera(scene: &Scene, request: &Request) -> Camera {
 
 /// Images that the shading pass must write.
 pub(crate) fn outputs(method: &Method, request: &Request) -> Result<Vec<&'static str>, Error> {
+    check_size(request)?;
     let mut outputs = Vec::new();
     for layer in &request.view.layers {
         let output = match layer {

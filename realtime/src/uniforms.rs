@@ -105,3 +105,56 @@ impl Analytic {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test that cannot read the shader must fail")]
+    use super::*;
+
+    type Layout = (Vec<(String, u32)>, u32);
+
+    /// Name and offset of each member, and the size, as naga lays them out.
+    fn in_wgsl(text: &str, name: &str) -> Layout {
+        let module = naga::front::wgsl::parse_str(text).unwrap();
+        let mut types = module.types.iter();
+        let (_, found) = types.find(|(_, ty)| ty.name.as_deref() == Some(name)).unwrap();
+        let naga::TypeInner::Struct { members, span } = &found.inner else { panic!("{name}") };
+        (members.iter().map(|m| (m.name.clone().unwrap(), m.offset)).collect(), *span)
+    }
+
+    /// Names of a Rust structure's members, in their order of declaration.
+    fn names(structure: &str) -> Vec<String> {
+        let body = RUST.split(&format!("struct {structure} {{")).nth(1).unwrap();
+        let members = body.split('}').next().unwrap().split("pub(crate) ").skip(1);
+        members.map(|member| member.split(':').next().unwrap().to_owned()).collect()
+    }
+
+    /// The same as encase lays them out.
+    macro_rules! in_rust {
+        ($structure:ident) => {{
+            let offset = |index: usize| $structure::METADATA.offset(index) as u32;
+            let named = names(stringify!($structure)).into_iter().enumerate();
+            let members = named.map(|(index, name)| (name, offset(index))).collect();
+            (members, $structure::min_size().get() as u32)
+        }};
+    }
+
+    const RUST: &str = include_str!("uniforms.rs");
+    const FRAME: &str = include_str!("shaders/frame.wgsl");
+
+    #[test]
+    fn uniforms_have_the_same_names_order_and_size_in_rust_and_in_wgsl() {
+        assert_eq!(in_rust!(Frame), in_wgsl(FRAME, "Frame"));
+        assert_eq!(in_rust!(Body), in_wgsl(FRAME, "Body"));
+        let analytic = include_str!("shaders/raster_analytic.wgsl");
+        let analytic = &analytic[..analytic.find("@group").unwrap()];
+        assert_eq!(in_rust!(Analytic), in_wgsl(analytic, "Analytic"));
+    }
+
+    #[test]
+    fn exchanged_members_are_noticed() {
+        let exchanged = FRAME.replace("up_ws", "was_up").replace("right_ws", "up_ws");
+        let exchanged = exchanged.replace("was_up", "right_ws");
+        assert_ne!(in_rust!(Frame), in_wgsl(&exchanged, "Frame"));
+    }
+}

@@ -1,0 +1,82 @@
+//! Where a method is exact, it agrees with a closed form to f32.
+
+use crate::*;
+
+/// f32 directions after a normalisation and a square root.
+const BOUND: f64 = 1e-6;
+
+fn shapes() -> Vec<Shape> {
+    vec![
+        Shape::Sphere { radius_m: 0.8 },
+        Shape::Box { half_extent_m: DVec3::new(0.6, 0.5, 0.7) },
+        Shape::Cylinder { radius_m: 0.5, half_height_m: 0.6 },
+        Shape::Slab { thickness_m: 0.3 },
+        Shape::HalfSpace,
+    ]
+}
+
+fn exits(scene: &Scene, method: &str, layer: LayerName) -> Vec<DVec3> {
+    let request = request(scene, method, std::slice::from_ref(&layer));
+    vectors(&realtime::render(&GPU, scene, &request).unwrap().layers, layer)
+}
+
+/// An index of 1 bends nothing, though every pass runs.
+#[test]
+fn index_one_leaves_the_view_direction() {
+    let camera = perspective(DVec3::new(1.0, 1.4, 4.2), [96, 64]);
+    for shape in shapes() {
+        let scene = scene_of(shape, 1.0, camera);
+        for method in ["dx7", "one-interface", "blended"] {
+            let exits = exits(&scene, method, LayerName::Exit);
+            let met = exits.iter().filter(|exit| **exit != DVec3::ZERO).count();
+            assert!(met > 200, "{method}: {met} pixels");
+            for (exit, ray) in exits.iter().zip(centre_rays(&camera)) {
+                if *exit != DVec3::ZERO {
+                    let error = angle(*exit, ray.direction);
+                    assert!(error < BOUND, "{method}: {error}");
+                }
+            }
+        }
+    }
+}
+
+/// On a ball, Snell's law at the analytic normal. Normals near the limb carry
+/// the rounding of the square root that finds the hit: the bound grows as
+/// 1 / cos.
+#[test]
+fn the_first_event_obeys_snells_law() {
+    let camera = perspective(DVec3::new(1.0, 1.4, 4.2), [128, 128]);
+    let scene = scene_of(Shape::Sphere { radius_m: 0.8 }, 1.5, camera);
+    let first = exits(&scene, "one-interface", LayerName::First);
+    let mut met = 0;
+    for (first, ray) in first.iter().zip(centre_rays(&camera)) {
+        let along = -ray.origin.dot(ray.direction);
+        let height2 = ray.origin.length_squared() - along * along;
+        let depth2 = 0.64 - height2;
+        if depth2 <= 1e-4 || *first == DVec3::ZERO {
+            continue;
+        }
+        met += 1;
+        let normal = (ray.origin + (along - depth2.sqrt()) * ray.direction) / 0.8;
+        let exact = snell(ray.direction, normal, 1.0 / 1.5);
+        let cosine = -ray.direction.dot(normal);
+        let error = angle(*first, exact);
+        assert!(error < BOUND / cosine, "{error} at cosine {cosine}");
+        // A wrong ratio is far outside the bound, save on the axis.
+        let wrong = snell(ray.direction, normal, 1.0 / 1.49);
+        assert!(cosine > 0.999 || angle(*first, wrong) > 1e-4);
+    }
+    assert!(met > 2000, "{met}");
+}
+
+/// A slab's normal is exact, so the error is that of the bend alone.
+#[test]
+fn a_slab_bends_to_rounding() {
+    let camera = perspective(DVec3::new(0.7, 1.1, 3.0), [64, 64]);
+    let scene = scene_of(Shape::Slab { thickness_m: 0.5 }, 1.7, camera);
+    let first = exits(&scene, "one-interface", LayerName::First);
+    for (first, ray) in first.iter().zip(centre_rays(&camera)) {
+        let exact = snell(ray.direction, DVec3::Z, 1.0 / 1.7);
+        assert!(angle(*first, exact) < BOUND);
+    }
+}

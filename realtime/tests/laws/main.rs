@@ -1,0 +1,112 @@
+//! Laws that images and plans must obey, through the crate's own front door.
+#![allow(clippy::unwrap_used, reason = "a test that cannot render must fail")]
+
+mod environment;
+mod first_event;
+mod plans;
+mod requests;
+
+use glam::{DAffine3, DVec3};
+use realtime::{Filter, Gpu, Request};
+use scenes::scene::{Judgement, Normals, Object, Sequence, Source};
+use scenes::{
+    Camera, Environment, Eta, LayerName, Layers, Medium, MediumId, Projection, Scene, Shape,
+    Surface, View,
+};
+use std::sync::{Arc, LazyLock};
+
+/// The adapter of this machine; a missing one fails every test that needs it.
+static GPU: LazyLock<Gpu> = LazyLock::new(|| Gpu::open(None).unwrap());
+
+fn orthographic(height_m: f64, resolution_px: [u32; 2]) -> Camera {
+    Camera {
+        eye: DVec3::new(0.0, 0.0, 3.0),
+        target: DVec3::ZERO,
+        up: DVec3::Y,
+        projection: Projection::Orthographic { height_m },
+        resolution_px,
+    }
+}
+
+fn perspective(eye: DVec3, resolution_px: [u32; 2]) -> Camera {
+    let projection = Projection::Perspective { vertical_fov_deg: 35.0 };
+    Camera { eye, target: DVec3::ZERO, up: DVec3::Y, projection, resolution_px }
+}
+
+fn scene_of(shape: Shape, eta: f64, camera: Camera) -> Scene {
+    let glass = Medium::plain("glass", Eta::try_from(eta).unwrap());
+    Scene {
+        name: "test".into(),
+        title: String::new(),
+        source: Source::default(),
+        camera,
+        environment: Environment::Uniform(DVec3::ONE),
+        media: vec![Medium::vacuum(), glass],
+        objects: vec![object(shape)],
+        lights: Vec::new(),
+        sequence: Sequence { frames: 1, seconds_per_frame: 1.0 },
+        judgement: Judgement::default(),
+        warnings: Vec::new(),
+    }
+}
+
+fn object(shape: Shape) -> Object {
+    Object {
+        name: "body".into(),
+        shape: Arc::new(shape),
+        surface: Surface::Dielectric { medium: MediumId(1), priority: 0 },
+        world_from_object: DAffine3::IDENTITY,
+        normals: Normals::Smooth,
+        motion: None,
+        deform: None,
+        bump: None,
+        crack: None,
+        air: None,
+    }
+}
+
+fn request(scene: &Scene, method: &str, layers: &[LayerName]) -> Request {
+    let resolution_px = scene.camera.resolution_px;
+    let layers = layers.to_vec();
+    Request {
+        view: View { resolution_px, positions_per_axis: 1, frame: 0, layers },
+        method: method.to_owned(),
+        parameters: [].into(),
+        filter: Filter::Manual,
+        timing: None,
+    }
+}
+
+/// With parameters as `name=value`.
+fn with(mut request: Request, parameters: &[(&str, &str)]) -> Request {
+    let owned = parameters.iter().map(|(name, value)| ((*name).into(), (*value).into()));
+    request.parameters = owned.collect();
+    request
+}
+
+/// Vectors of a layer, pixel by pixel.
+fn vectors(layers: &Layers, name: LayerName) -> Vec<DVec3> {
+    layers.get(&name).unwrap().data.chunks_exact(3).map(DVec3::from_slice).collect()
+}
+
+/// Rays through the pixels' centres.
+fn centre_rays(camera: &Camera) -> Vec<scenes::Ray> {
+    let [width, height] = camera.resolution_px;
+    let pixel = |i: u32| glam::DVec2::new(f64::from(i % width), f64::from(i / width)) + 0.5;
+    (0..width * height).map(|i| camera.ray_through(pixel(i))).collect()
+}
+
+/// Angle between two vectors, radians, without the cancellation of acos.
+fn angle(a: DVec3, b: DVec3) -> f64 {
+    a.cross(b).length().atan2(a.dot(b))
+}
+
+/// Snell's law in f64, written for these tests: cosines from the plane of
+/// incidence, nothing shared with the shader.
+fn snell(d: DVec3, n: DVec3, eta_i_over_t: f64) -> DVec3 {
+    let tangent = d - d.dot(n) * n;
+    let sine_t = eta_i_over_t * tangent.length();
+    assert!(sine_t <= 1.0);
+    let along = -(1.0 - sine_t * sine_t).sqrt() * n;
+    tangent.normalize_or_zero() * sine_t + along
+}

@@ -1,0 +1,178 @@
+//! A plan says what will happen; the recorder says what did. They are made
+//! apart, and must agree for every method on every kind of body.
+
+use crate::*;
+use realtime::method::{Kind, Method};
+use realtime::{METHODS, Timing};
+use scenes::environment::{LatLong, Map};
+use scenes::{Cube, Mesh, Plan, Rendering};
+
+/// A tetrahedron about the origin, counter-clockwise seen from outside.
+fn tetrahedron() -> Shape {
+    let corner = |x: f64, y: f64, z: f64| 0.6 * DVec3::new(x, y, z);
+    Shape::Mesh(Mesh {
+        positions: vec![
+            corner(1.0, 1.0, 1.0),
+            corner(1.0, -1.0, -1.0),
+            corner(-1.0, 1.0, -1.0),
+            corner(-1.0, -1.0, 1.0),
+        ],
+        triangles: vec![[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]],
+        normals: None,
+    })
+}
+
+fn environments() -> [Environment; 2] {
+    let cube = Cube::from_fn(4, |direction| direction + 1.0);
+    let lat_long = LatLong { size_px: [1, 1], texels: vec![[1.0; 3]] };
+    let map = Map { name: "test".into(), lat_long, cube, rotation_deg: 0.0, repaired_texels: 0 };
+    [Environment::Uniform(DVec3::ONE), Environment::Map(Arc::new(map))]
+}
+
+fn scenes() -> Vec<Scene> {
+    let shapes = [
+        Shape::Sphere { radius_m: 0.7 },
+        Shape::Box { half_extent_m: DVec3::splat(0.5) },
+        Shape::Cylinder { radius_m: 0.5, half_height_m: 0.6 },
+        tetrahedron(),
+    ];
+    let cameras = [orthographic(2.1, [24, 16]), perspective(DVec3::new(0.4, 0.8, 3.5), [24, 16])];
+    let mut scenes = Vec::new();
+    for shape in &shapes {
+        for camera in cameras {
+            for environment in environments() {
+                for normals in [Normals::Smooth, Normals::Flat] {
+                    let mut scene = scene_of(shape.clone(), 1.5, camera);
+                    scene.environment = environment.clone();
+                    scene.objects[0].normals = normals;
+                    scenes.push(scene);
+                }
+            }
+        }
+    }
+    scenes
+}
+
+fn many_layers() -> Vec<LayerName> {
+    let buffer = |name: &str| LayerName::Buffer(name.into());
+    vec![
+        LayerName::Radiance,
+        LayerName::Coverage,
+        LayerName::Exit,
+        LayerName::Flags,
+        buffer("thickness"),
+        buffer("back_normal"),
+    ]
+}
+
+/// Names of what was executed: all but the entry for the whole frame's time.
+fn executed(rendering: &Rendering) -> Vec<&str> {
+    let names = rendering.passes.iter().map(|pass| pass.name.as_str());
+    names.filter(|name| !name.ends_with(": frame")).collect()
+}
+
+/// The number of layers is known only once they are counted; until then their
+/// bytes are stated for one.
+fn kept(plan: &Plan, rendering: &Rendering) -> bool {
+    let counted = plan.buffers.iter().any(|buffer| buffer.name.ends_with("(per layer)"));
+    let bytes = rendering.counters["bytes"];
+    plan.passes == rendering.plan.passes
+        && plan.passes == executed(rendering)
+        && rendering.plan.bytes() == bytes
+        && (counted || plan.bytes() == bytes)
+}
+
+#[test]
+fn every_method_executes_its_plan() {
+    let timing = Timing { warm_up: 0, seconds: 0.0, max_frames: 1 };
+    for scene in scenes() {
+        for method in METHODS {
+            for positions_per_axis in [1, 2] {
+                let mut request = request(&scene, method.id, &many_layers());
+                request.view.positions_per_axis = positions_per_axis;
+                request.timing = Some(timing);
+                let plan = realtime::plan(&scene, &request).unwrap();
+                let rendering = realtime::render(&GPU, &scene, &request).unwrap();
+                let (ran, bytes) = (executed(&rendering), rendering.counters["bytes"]);
+                assert!(
+                    kept(&plan, &rendering),
+                    "{}: {:?} ran {ran:?}, {} bytes allocated {bytes}",
+                    method.id,
+                    plan.passes,
+                    plan.bytes()
+                );
+            }
+        }
+    }
+}
+
+/// The comparison can fail: a plan with a pass or a byte too few is not kept.
+#[test]
+fn a_pass_or_a_byte_too_many_is_noticed() {
+    let scene = scene_of(Shape::Sphere { radius_m: 0.7 }, 1.5, orthographic(2.1, [16, 16]));
+    let request = request(&scene, "blended", &[LayerName::Radiance]);
+    let rendering = realtime::render(&GPU, &scene, &request).unwrap();
+    let plan = realtime::plan(&scene, &request).unwrap();
+    assert!(kept(&plan, &rendering));
+    let mut fewer = plan.clone();
+    fewer.passes.retain(|pass| pass != "back");
+    assert!(!kept(&fewer, &rendering));
+    let mut smaller = plan;
+    smaller.buffers[0].bytes -= 1;
+    assert!(!kept(&smaller, &rendering));
+}
+
+/// Every word of every parameter, for every kind of scene, compiles.
+#[test]
+fn every_combination_of_pieces_compiles() {
+    let mut combinations = 0;
+    for mut scene in scenes() {
+        scene.media[1].absorption_per_m = DVec3::ONE;
+        for method in METHODS {
+            for parameters in settings(method) {
+                for filter in [Filter::Manual, Filter::Hardware] {
+                    for layers in [many_layers(), vec![LayerName::Exit], vec![LayerName::Radiance]]
+                    {
+                        let mut request = request(&scene, method.id, &layers);
+                        request.filter = filter;
+                        request.parameters = parameters.clone();
+                        realtime::plan(&scene, &request).unwrap();
+                        combinations += 1;
+                    }
+                }
+            }
+        }
+    }
+    assert!(combinations > 1000, "{combinations}");
+}
+
+/// The defaults, then each other word and both ends of each number in turn.
+fn settings(method: &Method) -> Vec<std::collections::BTreeMap<String, String>> {
+    let mut all = vec![[].into()];
+    for parameter in method.parameters {
+        let values = match parameter.kind {
+            Kind::Number { min, max, .. } => vec![min.to_string(), max.to_string()],
+            Kind::Choice(words) => words.iter().skip(1).map(|w| (*w).to_owned()).collect(),
+        };
+        all.extend(values.into_iter().map(|value| [(parameter.name.to_owned(), value)].into()));
+    }
+    all
+}
+
+/// What is timed is what a game would draw, whatever the judged image is.
+#[test]
+fn the_timed_frame_has_one_position_and_the_hardwares_filter() {
+    let mut scene = scene_of(Shape::Sphere { radius_m: 0.7 }, 1.5, orthographic(2.1, [16, 16]));
+    scene.environment = environments()[1].clone();
+    let mut request = request(&scene, "one-interface", &many_layers());
+    request.view.positions_per_axis = 4;
+    request.timing = Some(Timing { warm_up: 0, seconds: 0.0, max_frames: 1 });
+    let plan = realtime::plan(&scene, &request).unwrap();
+    let bytes = |name: &str| plan.buffers.iter().find(|b| b.name == name).map(|b| b.bytes);
+    assert_eq!(bytes("radiance"), Some(64 * 64 * 16));
+    assert_eq!(bytes("timed: radiance"), Some(16 * 16 * 16));
+    assert!(bytes("environment_faces").is_some() && bytes("timed: environment_cube").is_some());
+    assert_eq!(bytes("timed: environment_faces"), None);
+    assert!(plan.passes.iter().any(|p| p == "centre: back"));
+    assert!(!plan.passes.iter().any(|p| p == "timed: back"));
+}

@@ -1,0 +1,55 @@
+//! Requests that make no sense get one clear message.
+
+use crate::*;
+use realtime::Error;
+
+fn refused(change: impl FnOnce(&mut Request)) -> Error {
+    let scene = scene_of(Shape::Sphere { radius_m: 1.0 }, 1.5, orthographic(2.1, [32, 32]));
+    let mut request = request(&scene, "blended", &[LayerName::Radiance]);
+    change(&mut request);
+    realtime::plan(&scene, &request).unwrap_err()
+}
+
+#[test]
+fn unknown_names_are_told_what_there_is() {
+    let message = refused(|r| r.method = "blend".into()).to_string();
+    assert!(message.contains("\"blend\"") && message.contains("blended"), "{message}");
+    let message = refused(|r| *r = with(r.clone(), &[("b", "1")])).to_string();
+    assert!(message.contains("back_normal"), "{message}");
+    let message = refused(|r| *r = with(r.clone(), &[("a", "1.5")])).to_string();
+    assert!(message.contains("from 0 to 1"), "{message}");
+    let message = refused(|r| r.view.layers = vec![LayerName::Variance]).to_string();
+    assert!(message.contains("thickness"), "{message}");
+}
+
+#[test]
+fn absurd_sizes_are_refused_before_anything_is_allocated() {
+    assert!(matches!(refused(|r| r.view.resolution_px = [0, 8]), Error::Size(_)));
+    assert!(matches!(refused(|r| r.view.resolution_px = [1 << 30; 2]), Error::Size(_)));
+    assert!(matches!(refused(|r| r.view.positions_per_axis = u32::MAX), Error::Size(_)));
+}
+
+#[test]
+fn an_unknown_adapter_is_told_what_there_is() {
+    let error = Gpu::open(Some("no such adapter")).err().unwrap();
+    assert!(matches!(error, Error::UnknownAdapter { .. } | Error::NoAdapter), "{error}");
+}
+
+/// k x k positions are those of the exact renderer: a pixel's mean coverage is
+/// the share of its positions whose rays meet the ball.
+#[test]
+fn positions_lie_where_they_are_stated_to_lie() {
+    let camera = orthographic(2.1, [24, 24]);
+    let scene = scene_of(Shape::Sphere { radius_m: 1.0 }, 1.5, camera);
+    let mut request = request(&scene, "undeviated", &[LayerName::Coverage]);
+    request.view.positions_per_axis = 4;
+    let rendering = realtime::render(&GPU, &scene, &request).unwrap();
+    let coverage = &rendering.layers.list[0].data;
+    for (pixel, share) in coverage.iter().enumerate() {
+        let corner = glam::DVec2::new((pixel % 24) as f64, (pixel / 24) as f64);
+        let at = |i: u32| glam::DVec2::new(f64::from(i % 4), f64::from(i / 4)) + 0.5;
+        let rays = (0..16).map(|i| camera.ray_through(corner + at(i) / 4.0));
+        let met = rays.filter(|ray| ray.origin.truncate().length() < 1.0).count();
+        assert_eq!(*share, met as f64 / 16.0, "pixel {pixel}");
+    }
+}
