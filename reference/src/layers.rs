@@ -11,6 +11,10 @@ use scenes::{LayerName, Layers, Scene};
 /// inside its solid.
 const CRACK_MASK: &str = "crack_mask";
 
+/// Layer: Stokes parameters Q, U, V of the middle channel (the d line), for the
+/// image's horizontal axis.
+const STOKES: &str = "stokes";
+
 fn is_mask(name: &LayerName) -> bool {
     matches!(name, LayerName::Buffer(name) if name == CRACK_MASK)
 }
@@ -27,6 +31,8 @@ pub(crate) struct Pixel {
     pub(crate) variance: DVec3,
     /// Radiance by number of interfaces, as far as asked for.
     pub(crate) bounces: Vec<DVec3>,
+    /// Q, U, V of the d line.
+    pub(crate) polarisation: DVec3,
     /// The straight ray through the centre meets a crack inside a solid.
     pub(crate) crack: bool,
 }
@@ -81,6 +87,11 @@ impl Columns {
                     1
                 }
                 LayerName::Buffer(name) if name == CRACK_MASK => 1,
+                LayerName::Buffer(name)
+                    if name == STOKES && request.polarised && request.level != Level::R0 =>
+                {
+                    3
+                }
                 _ => return Err(unknown()),
             };
             if !names.iter().any(|(other, _)| other == name) {
@@ -125,6 +136,7 @@ impl Columns {
                 LayerName::TotalReflections => row.push(f64::from(chain.total_reflections)),
                 LayerName::Flags => row.push(f64::from(chain.flags)),
                 LayerName::Truncated => row.push(pixel.truncated),
+                LayerName::Buffer(name) if name == STOKES => vector(row, pixel.polarisation),
                 LayerName::Buffer(_) => row.push(f64::from(u8::from(pixel.crack))),
                 LayerName::Samples => row.push(pixel.samples),
                 LayerName::Variance => vector(row, pixel.variance),

@@ -10,7 +10,7 @@ use crate::optics::D_LINE;
 use crate::policy::{Cut, Policy, Roulette};
 use crate::request::{Estimator, Level};
 use crate::sampling::Points;
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec4Swizzles};
 
 /// Working memory for the light of one pixel.
 pub(crate) struct Light<'a, 'b, M> {
@@ -48,6 +48,7 @@ impl<M: Media> Light<'_, '_, M> {
         pixel.radiance *= share;
         pixel.truncated *= share;
         pixel.coverage *= share;
+        pixel.polarisation *= share;
         pixel.bounces.iter_mut().for_each(|bounce| *bounce *= share);
         pixel.samples = count;
     }
@@ -97,6 +98,12 @@ impl<M: Media> Light<'_, '_, M> {
             pixel.coverage += f64::from(u8::from(chain.met));
             return;
         }
+        if let (true, Estimator::Tree { cut }) =
+            (self.job.request.polarised, self.job.request.estimator)
+        {
+            self.polarised::<UNIFORM, LENGTHS>(flight, Cut(cut), pixel);
+            return;
+        }
         if !tracer.disperses {
             let sum = self.tree::<P, UNIFORM, LENGTHS>(flight, D_LINE, policy, pixel);
             pixel.radiance += sum.radiance;
@@ -113,6 +120,41 @@ impl<M: Media> Light<'_, '_, M> {
             if channel == D_LINE {
                 pixel.coverage += f64::from(u8::from(sum.met));
             }
+        }
+        pixel.truncated += truncated;
+    }
+
+    /// Adds the light below a camera ray with its polarisation; axis: the
+    /// image's horizontal.
+    fn polarised<const UNIFORM: bool, const LENGTHS: bool>(
+        &mut self,
+        flight: Flight<M>,
+        cut: Cut,
+        pixel: &mut Pixel,
+    ) {
+        let tracer = self.job.tracer;
+        let axis = flight.direction.cross(self.job.camera.basis().up).normalize();
+        let mut truncated = 0.0_f64;
+        // Without dispersion one trace serves every channel.
+        let channels = if tracer.disperses { 0..3 } else { D_LINE..D_LINE + 1 };
+        for channel in channels {
+            let shows = |c: usize| c == channel || !tracer.disperses;
+            let optics = &tracer.optics[channel];
+            let sum = tracer.polarised_tree::<M, UNIFORM, LENGTHS>(
+                flight.clone(),
+                axis,
+                optics,
+                cut,
+                self.scratch,
+            );
+            for c in (0..3).filter(|c| shows(*c)) {
+                pixel.radiance[c] += sum.channels[c].x;
+            }
+            if shows(D_LINE) {
+                pixel.polarisation += sum.channels[D_LINE].yzw();
+                pixel.coverage += f64::from(u8::from(sum.met));
+            }
+            truncated = truncated.max(sum.truncated);
         }
         pixel.truncated += truncated;
     }

@@ -16,6 +16,10 @@ pub struct Request {
     pub environment_lookup: EnvironmentLookup,
     /// Physics taken away on purpose, to attribute an approximation's error.
     pub restriction: Restriction,
+    /// Follow the polarisation of light (Stokes vectors) instead of averaging it
+    /// away at every interface. Needs [`Estimator::Tree`] and
+    /// [`Fresnel::Exact`]; without effect on [`Level::R0`].
+    pub polarised: bool,
     /// Do not specialise the tracer to the scene. For tests: the image is the
     /// same, bit by bit.
     pub general: bool,
@@ -111,6 +115,11 @@ impl Request {
         if !(1..=256).contains(&k) {
             return range("positions per axis", k.to_string(), "1 to 256");
         }
+        let tree = matches!(self.estimator, Estimator::Tree { .. });
+        if self.polarised && !(tree && self.restriction.fresnel == Fresnel::Exact) {
+            let value = format!("{:?}, {:?}", self.estimator, self.restriction.fresnel);
+            return range("polarised rendering by", value, "the tree with exact Fresnel equations");
+        }
         match self.estimator {
             Estimator::Tree { cut } if !(0.0..=1.0).contains(&cut) => {
                 range("cut", cut.to_string(), "0 to 1")
@@ -131,6 +140,7 @@ impl Request {
             estimator: Estimator::Tree { cut: 1e-4 },
             environment_lookup: EnvironmentLookup::Cube,
             restriction: Restriction::default(),
+            polarised: false,
             general: false,
         }
     }
