@@ -127,9 +127,11 @@ mod tests {
     /// Mean over a diffuse sky, 2 ∫ R cos θ d cos θ, from outside and inside.
     #[test]
     fn the_reflectance_of_diffuse_light_is_the_tabulated_one() {
-        for (eta, outside, inside) in
-            [(1.309, 0.062_581, 0.452_916), (1.5, 0.091_778, 0.596_346), (2.417, 0.212_188, 0.865_144)]
-        {
+        for (eta, outside, inside) in [
+            (1.309, 0.062_581, 0.452_916),
+            (1.5, 0.091_778, 0.596_346),
+            (2.417, 0.212_188, 0.865_144),
+        ] {
             let mean = |from: f64, to: f64| {
                 let steps = 200_000;
                 let of = |i| (f64::from(i) + 0.5) / f64::from(steps);

@@ -67,7 +67,7 @@ impl Columns {
                 | LayerName::ExitPosition
                 | LayerName::First
                 | LayerName::Hit2 => 3,
-                LayerName::Bounce(order) if request.level != Level::R0 => {
+                LayerName::Bounce(order) if request.level != Level::R0 && !request.polarised => {
                     bounces = bounces.max(usize::from(*order) + 1);
                     3
                 }

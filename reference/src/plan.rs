@@ -101,6 +101,11 @@ impl Variant {
             let reason = "no medium is dispersive, or the chain follows the d line alone";
             plan.leave_out(Kind::Pass, "traces for red and blue", reason, 0);
         }
+        if request.polarised {
+            plan.features.push("polarisation".to_owned());
+        } else {
+            plan.leave_out(Kind::State, "polarisation", "it was not asked for", 0);
+        }
         if world.tree.len() == 0 {
             plan.leave_out(Kind::Buffer, "tree", "no body is a mesh", 0);
         }

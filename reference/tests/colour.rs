@@ -94,8 +94,7 @@ fn each_channel_leaves_the_ball_by_its_own_index() {
 fn light_that_tells_its_direction_shows_the_exit_direction() {
     let mut scene = furnace(vec![object(Shape::Mesh(cup()), 1, Normals::Flat)], 1.5);
     scene.environment = directions();
-    let mut request =
-        Request::new(view(64, 1, &[LayerName::Radiance, LayerName::Exit]), Level::R0);
+    let mut request = Request::new(view(64, 1, &[LayerName::Radiance, LayerName::Exit]), Level::R0);
     request.environment_lookup = EnvironmentLookup::Cube;
     let rendering = render(&scene, &request).unwrap();
     let data = |name| rendering.layers.get(&name).unwrap().data.clone();

@@ -1,6 +1,10 @@
 //! What must not change an image: the unit of length, where the scene stands,
 //! how it is turned, and the sense in which a path is travelled.
-#![allow(clippy::unwrap_used, reason = "a test may fail by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stderr,
+    reason = "a test may panic, and prints its figures"
+)]
 
 mod common;
 mod rays;

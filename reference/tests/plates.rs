@@ -66,8 +66,7 @@ fn a_stack_of_plates_passes_what_its_surfaces_share() {
 
 #[test]
 fn an_absorbing_plate_sums_its_reflections_geometrically() {
-    for (degrees, passes, reflects) in [(0.0, 0.339_111, 0.044_990), (60.0, 0.243_925, 0.095_579)]
-    {
+    for (degrees, passes, reflects) in [(0.0, 0.339_111, 0.044_990), (60.0, 0.243_925, 0.095_579)] {
         let mut scene = plates(1, 1.5);
         scene.media[1].absorption_per_m = DVec3::ONE;
         let [passed, back] = shares(scene, degrees);

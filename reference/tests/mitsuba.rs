@@ -3,7 +3,11 @@
 //!
 //! The test must notice an environment half a texel off, a field of view 0.1
 //! degree off, and paths of at most eight edges: else it proves nothing.
-#![allow(clippy::unwrap_used, reason = "a test may fail by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stderr,
+    reason = "a test may panic, and prints its figures"
+)]
 
 mod common;
 
