@@ -59,7 +59,7 @@ impl Frame {
         view: &Viewed<'_>,
     ) -> Result<Self, Error> {
         let mut resources = Resources::default();
-        upload_numbers(allocator, view, 0, &mut resources)?;
+        upload_numbers(allocator, view, &mut resources)?;
         upload_environment(gpu, allocator, composition, view.environment, &mut resources)?;
         for output in &composition.outputs {
             let usage = TextureUsages::STORAGE_BINDING | TextureUsages::COPY_SRC;
@@ -79,21 +79,16 @@ impl Frame {
     }
 }
 
-/// Writes the frame's and the bodies' numbers.
-pub(crate) fn upload_numbers(
+/// Writes the bodies' numbers, and the frame's before layers are counted.
+fn upload_numbers(
     allocator: &Allocator<'_>,
     view: &Viewed<'_>,
-    layer_capacity: u32,
     resources: &mut Resources,
 ) -> Result<(), Error> {
-    let Viewed { geometry, camera, eta_outside, resolution_px, .. } = *view;
-    let (centre, radius_m) = (geometry.centre, geometry.radius_m);
-    let frame = uniforms::Frame {
-        layer_capacity,
-        ..uniforms::Frame::new(camera, resolution_px, centre, radius_m, eta_outside)
-    };
+    let geometry = view.geometry;
     let uniform = wgpu::BufferUsages::UNIFORM;
-    resources.buffer("frame", allocator.filled("frame", &uniforms::bytes_of(&frame), uniform)?);
+    let frame = frame_bytes(view, 0);
+    resources.buffer("frame", allocator.filled("frame", &frame, uniform)?);
     let mut list = [uniforms::Body::default(); MAX_BODIES];
     list[..geometry.bodies.len()].copy_from_slice(&geometry.bodies);
     // Numbers that no body has.
@@ -101,4 +96,24 @@ pub(crate) fn upload_numbers(
     let bodies = uniforms::bytes_of(&Bodies { list });
     resources.buffer("bodies", allocator.filled("bodies", &bodies, uniform)?);
     Ok(())
+}
+
+/// Writes how many layers there is room for into the frame's numbers.
+pub(crate) fn set_layer_capacity(
+    gpu: &Gpu,
+    view: &Viewed<'_>,
+    layer_capacity: u32,
+    resources: &Resources,
+) {
+    let bytes = frame_bytes(view, layer_capacity);
+    gpu.queue.write_buffer(resources.stored("frame"), 0, &bytes);
+}
+
+fn frame_bytes(view: &Viewed<'_>, layer_capacity: u32) -> Vec<u8> {
+    let Viewed { geometry, camera, eta_outside, resolution_px, .. } = *view;
+    let (centre, radius_m) = (geometry.centre, geometry.radius_m);
+    uniforms::bytes_of(&uniforms::Frame {
+        layer_capacity,
+        ..uniforms::Frame::new(camera, resolution_px, centre, radius_m, eta_outside)
+    })
 }

@@ -47,7 +47,7 @@ impl Peeled {
             let texture = maker.allocator.texture(name, size, format, usage)?;
             resources.texture_as(name, texture, wgpu::TextureViewDimension::D2Array);
         }
-        frame::upload_numbers(maker.allocator, view, capacity, resources)?;
+        frame::set_layer_capacity(maker.gpu, view, capacity, resources);
         let collect = maker.surfaces(&peel.collect, resources)?;
         let sort = maker.over_pixels(&peel.sort, "peel_sort", resources)?;
         Ok(Self { collect, sort, capacity })

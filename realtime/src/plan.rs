@@ -107,6 +107,12 @@ fn of(
         let mut add =
             |name: &str, bytes: u64| plan.buffers.push(Buffer { name: name.to_owned(), bytes });
         add("slot_counts", 4 * pixels);
+        // A raster pass must have a target, though nothing is written to it.
+        add("no colour", pixels);
+        // Both sides of every analytic body, to be counted and to be collected.
+        for _ in 0..4 * geometry.formulas().len() {
+            add("analytic", uniforms::Analytic::min_size().get());
+        }
         let suffix = if layers.is_some() { "" } else { " (per layer)" };
         for name in ["slot_depths", "slot_normals"] {
             add(&format!("{name}{suffix}"), 4 * pixels * u64::from(layers.unwrap_or(1)));

@@ -41,7 +41,9 @@ fn scenes() -> Vec<Scene> {
     for shape in &shapes {
         for camera in cameras {
             for environment in environments() {
-                for normals in [Normals::Smooth, Normals::Flat] {
+                // Analytic shapes have one kind of normal.
+                let kinds = if shape.mesh().is_some() { 2 } else { 1 };
+                for normals in [Normals::Smooth, Normals::Flat].into_iter().take(kinds) {
                     let mut scene = scene_of(shape.clone(), 1.5, camera);
                     scene.environment = environment.clone();
                     scene.objects[0].normals = normals;
@@ -85,14 +87,15 @@ fn kept(plan: &Plan, rendering: &Rendering) -> bool {
 #[test]
 fn every_method_executes_its_plan() {
     let timing = Timing { warm_up: 0, seconds: 0.0, max_frames: 1 };
-    for scene in scenes() {
+    // The projection changes no pass and no byte: one of the two is enough.
+    for scene in scenes().iter().filter(|scene| scene.camera.eye.x != 0.0) {
         for method in METHODS {
             for positions_per_axis in [1, 2] {
-                let mut request = request(&scene, method.id, &many_layers());
+                let mut request = request(scene, method.id, &many_layers());
                 request.view.positions_per_axis = positions_per_axis;
                 request.timing = Some(timing);
-                let plan = realtime::plan(&scene, &request).unwrap();
-                let rendering = realtime::render(&GPU, &scene, &request).unwrap();
+                let plan = realtime::plan(scene, &request).unwrap();
+                let rendering = realtime::render(&GPU, scene, &request).unwrap();
                 let (ran, bytes) = (executed(&rendering), rendering.counters["bytes"]);
                 assert!(
                     kept(&plan, &rendering),
