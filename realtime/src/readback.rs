@@ -57,7 +57,8 @@ fn map(gpu: &Gpu, staging: &wgpu::Buffer) -> Result<Vec<u8>, Error> {
         let _ = sender.send(result);
     });
     gpu.wait()?;
-    match receiver.try_recv() {
+    // Another thread's wait may be the one that calls back.
+    match receiver.recv() {
         Ok(Ok(())) => {}
         Ok(Err(error)) => return Err(gpu.failed(&error)),
         Err(error) => return Err(gpu.failed(&error)),

@@ -48,7 +48,8 @@ fn analytic_fragment(@builtin(position) at: vec4f) -> AnalyticTargets {
     let met = intersect(origin, along / scale);
     let far_side = analytic.far_side == 1u;
     let t = select(met.t_near, met.t_far, far_side);
-    if (!met.hit || t < 0.0) {
+    // A half-space has no far side: its t is 1e30.
+    if (!met.hit || t < 0.0 || t >= 1e30) {
         discard;
     }
     let p_object = origin + t * along / scale;
