@@ -19,7 +19,7 @@ fn page(name: &str) -> (Report, String) {
 #[test]
 fn a_page_holds_tables_plots_and_pictures_and_needs_no_network() {
     let (report, html) = page("whole-report");
-    assert_eq!(html.matches("<svg").count(), 4, "two plots per scene");
+    assert_eq!(html.matches("<svg").count(), 6, "three plots per scene");
     assert!(html.matches("src=\"data:image/png;base64,").count() >= 12);
     for address in ["http://", "https://", "src=\"/", "@import"] {
         let foreign = html.replace("http://www.w3.org/2000/svg", "");

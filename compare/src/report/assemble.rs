@@ -11,11 +11,12 @@ use rayon::prelude::*;
 use std::path::Path;
 
 /// Metrics of the verdict table: figures of merit first.
-pub(super) const COLUMNS: [(Metric, &str, &str); 5] = [
+pub(super) const COLUMNS: [(Metric, &str, &str); 6] = [
     (Metric::ExitAngleMedian, "exit angle, median", "°"),
     (Metric::ExitAngleP95, "95th percentile", "°"),
     (Metric::ExitWithin1Deg, "within 1°", "%"),
     (Metric::RelMse, "relMSE ε=0.01", ""),
+    (Metric::RelMseTrimmed, "without the worst 0.1 %", ""),
     (Metric::HdrFlip, "FLIP", ""),
 ];
 

@@ -24,9 +24,9 @@ pub(super) fn place(
     pictures: Option<ScenePictures>,
 ) -> Result<(), ReportError> {
     let name = file_name(&scene.entry.name);
-    for (kind, (_, svg)) in ["image", "exit-angle"].iter().zip(&scene.plots) {
-        let path = directory.join("plots").join(format!("{name}-{kind}.svg"));
-        write_file(&path, svg.as_bytes())?;
+    for plot in &scene.plots {
+        let path = directory.join("plots").join(format!("{name}-{}.svg", plot.kind));
+        write_file(&path, plot.svg.as_bytes())?;
         scene.files.push(path);
     }
     let Some(pictures) = pictures else { return Ok(()) };

@@ -89,12 +89,23 @@ pub(super) struct SceneView {
     pub(super) reference_facts: Vec<String>,
     /// Methods.
     pub(super) methods: Vec<MethodView>,
-    /// Plots as SVG with a caption.
-    pub(super) plots: Vec<(String, String)>,
+    /// Plots.
+    pub(super) plots: Vec<PlotView>,
     /// HDR data of the viewer.
     pub(super) data: Option<SceneData>,
     /// Files of pictures and plots that were written.
     pub(super) files: Vec<PathBuf>,
+}
+
+/// A plot with what is said under it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct PlotView {
+    /// What it shows, as part of a file name.
+    pub(super) kind: &'static str,
+    /// Caption.
+    pub(super) caption: String,
+    /// SVG.
+    pub(super) svg: String,
 }
 
 /// HDR data of one scene for the viewer.

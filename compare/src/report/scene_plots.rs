@@ -2,22 +2,24 @@
 
 use super::assemble::{display_name, find};
 use super::numbers::{Numbers, usable};
+use super::page::PlotView;
 use super::plot::{Plot, Point};
 use crate::metric::Metric;
 use crate::results::{Run, SceneEntry, Study};
 
-/// Error against time: the image and the exit angle.
+/// Error against time: the image, the image without its glints, the exit angle.
 pub(super) fn plots(
     entry: &SceneEntry,
     study: &Study,
     runs: &[&Run],
     numbers: &Numbers,
     styles: &[String],
-) -> Vec<(String, String)> {
+) -> Vec<PlotView> {
     let mut plots = Vec::new();
-    for (metric, label) in [
-        (Metric::RelMse, "relMSE ε=0.01 (image)"),
-        (Metric::ExitAngleMedian, "median exit-angle error, degrees"),
+    for (metric, kind, label) in [
+        (Metric::RelMse, "image", "relMSE ε=0.01 (image)"),
+        (Metric::RelMseTrimmed, "image-trimmed", "relMSE without the worst 0.1 % of pixels"),
+        (Metric::ExitAngleMedian, "exit-angle", "median exit-angle error, degrees"),
     ] {
         let points = runs.iter().filter_map(|run| {
             let row = find(numbers, run, metric)?;
@@ -39,7 +41,7 @@ pub(super) fn plots(
         };
         let svg = plot.svg();
         if !svg.is_empty() {
-            plots.push((caption(&plot), svg));
+            plots.push(PlotView { kind, caption: caption(&plot), svg });
         }
     }
     plots
