@@ -58,3 +58,35 @@ fn at_a_fine_cut_almost_nothing_is_dropped() {
         }
     }
 }
+
+/// The control: without reflections off the inside the body is seen at once,
+/// and nothing claims to have been dropped for it.
+#[test]
+fn dropping_a_branch_breaks_the_furnace() {
+    let body = object(Shape::Mesh(common::icosphere(2)), 1, Normals::Flat);
+    let mut request =
+        Request::new(view(32, 1, &[LayerName::Radiance, LayerName::Truncated]), Level::R1);
+    request.restriction.internal_reflection = false;
+    let (_, under, _) = white(&render(&furnace(vec![body], 1.5), &request).unwrap());
+    assert!(under > 0.03, "{under}");
+}
+
+/// In a ball of index 1.5 seen along its axis the chain runs 2 radii of glass,
+/// and Beer's law takes exp(-2 sigma) of it.
+#[test]
+fn lengths_and_absorption_follow_the_chain() {
+    let mut scene = furnace(vec![object(Shape::Sphere { radius_m: 1.0 }, 1, Normals::Flat)], 1.5);
+    scene.media[1].absorption_per_m = glam::DVec3::new(0.0, 0.5, 3.0);
+    let layers = [
+        LayerName::Radiance,
+        LayerName::Path("glass".to_owned()),
+        LayerName::Path("vacuum".to_owned()),
+    ];
+    let rendering = render(&scene, &Request::new(view(1, 1, &layers), Level::R0)).unwrap();
+    let [radiance, glass, vacuum] = [0, 1, 2].map(|i| &rendering.layers.list[i].data);
+    assert!((glass[0] - 2.0).abs() < 1e-12);
+    assert!((vacuum[0] - (scene.camera.eye.length() - 1.0)).abs() < 1e-12);
+    for (channel, sigma) in [0.0_f64, 0.5, 3.0].into_iter().enumerate() {
+        assert!((radiance[channel] - (-2.0 * sigma).exp()).abs() < 1e-12, "{radiance:?}");
+    }
+}
