@@ -97,7 +97,8 @@ impl World {
                     entering: side == 0,
                     place: Place::Analytic { point, normal },
                 };
-                if crossing.t.is_finite() && (own.is_some() || crossing.key() > after) {
+                // Its own far side too is passed only once.
+                if crossing.t.is_finite() && crossing.key() > after {
                     next.consider(crossing);
                 }
             }

@@ -41,9 +41,9 @@ pub fn fresnel(cos_i: f64, eta_i: f64, eta_t: f64) -> f64 {
 /// (s) and in (p) the plane of incidence.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Amplitudes {
-    /// Amplitudes of the reflected field over the incident one. Both change
-    /// sign against each other at normal incidence: the axes of s, p and the
-    /// direction of travel are right-handed before and after.
+    /// Amplitudes of the reflected field over the incident one. Head-on their
+    /// signs differ: the axes of s, p and the direction of travel are
+    /// right-handed before and after.
     Partial {
         /// Across the plane of incidence.
         s: f64,
@@ -64,10 +64,9 @@ pub fn amplitudes(cos_i: f64, eta_i: f64, eta_t: f64) -> Amplitudes {
     let sin2_i = (1.0 - cos_i) * (1.0 + cos_i);
     let sin_t = ratio * sin2_i.max(0.0).sqrt();
     if sin_t >= 1.0 {
-        // tan(δ/2) = cos θ √(sin² θ - n²) / sin² θ, plus the half turn by which
-        // right-handed axes differ from the textbook's.
+        // tan(δ/2) = cos θ √(sin² θ - n²) / sin² θ.
         let beyond = ((sin_t - 1.0) * (sin_t + 1.0)).sqrt() / ratio;
-        let retardance = 2.0 * (cos_i * beyond).atan2(sin2_i) + std::f64::consts::PI;
+        let retardance = 2.0 * (cos_i * beyond).atan2(sin2_i);
         return Amplitudes::Total { retardance };
     }
     let cos_t = ((1.0 - sin_t) * (1.0 + sin_t)).sqrt();
@@ -151,7 +150,7 @@ mod tests {
         let Amplitudes::Total { retardance } = amplitudes(angle.cos(), 1.51, 1.0) else {
             unreachable!()
         };
-        assert!(((retardance.to_degrees() - 180.0) - 45.0).abs() < 0.03, "{retardance}");
+        assert!((retardance.to_degrees() - 45.0).abs() < 0.03, "{retardance}");
     }
 
     #[test]
@@ -192,7 +191,9 @@ mod tests {
             let d = at((1.0 - cos_i * cos_i).sqrt());
             if let Some(t) = refract(d, DVec3::Z, eta_i, eta_t) {
                 let (there, back) = (fresnel(-d.z, eta_i, eta_t), fresnel(-t.z, eta_t, eta_i));
-                prop_assert!((there - back).abs() < 1e-13 / t.z.abs().max(1e-9));
+                // The angle is known to 1e-16, its cosine less well where it is small.
+                let within = 1e-13 / d.z.abs().min(t.z.abs()).max(1e-9);
+                prop_assert!((there - back).abs() < within);
                 // The way back is the way there, as far as the angle is known.
                 let again = refract(-t, -DVec3::Z, eta_t, eta_i);
                 let within = 1e-12 / d.z.abs().min(t.z.abs()).max(1e-9);

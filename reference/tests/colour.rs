@@ -2,16 +2,16 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail by panicking")]
 
 mod common;
-mod rays;
+mod shots;
 
 use common::{cup, furnace, object, view};
 use glam::DVec3;
-use rays::{gather, shoot};
 use reference::{EnvironmentLookup, Level, Request, render};
 use scenes::environment::{Cube, LatLong, Map};
 use scenes::medium::RGB_WAVELENGTH_UM;
 use scenes::scene::Normals;
 use scenes::{Dispersion, Environment, Eta, LayerName, Medium, Scene, Shape};
+use shots::{gather, shoot};
 use std::sync::Arc;
 
 fn close(found: f64, expected: f64, within: f64) {
@@ -102,8 +102,8 @@ fn light_that_tells_its_direction_shows_the_exit_direction() {
     for (colour, exit) in data(LayerName::Radiance).chunks(3).zip(data(LayerName::Exit).chunks(3)) {
         let (colour, exit) = (DVec3::from_slice(colour), DVec3::from_slice(exit));
         if exit != DVec3::ZERO {
-            // A bilinear texel of a 1024² face is within its curvature.
-            assert!((2.0 * colour - 1.0 - exit).length() < 1e-5, "{colour} {exit}");
+            // Within a texel: at the faces' edges the nearest one is repeated.
+            assert!((2.0 * colour - 1.0 - exit).length() < 2e-3, "{colour} {exit}");
             seen += 1;
         }
     }

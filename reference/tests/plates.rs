@@ -4,14 +4,14 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail by panicking")]
 
 mod common;
-mod rays;
+mod shots;
 
 use common::{furnace, object};
 use glam::{DAffine3, DVec2, DVec3};
-use rays::{angle, gather, shoot, two_halves};
 use reference::interface::fresnel;
 use scenes::scene::Normals;
 use scenes::{Environment, Scene, Shape};
+use shots::{angle, gather, shoot, two_halves};
 
 fn plates(count: u32, eta: f64) -> Scene {
     let plate = |i: u32| {
@@ -28,11 +28,11 @@ fn tilted(degrees: f64) -> DVec3 {
 }
 
 /// Share of light that passes, and share that comes back.
-fn shares(mut scene: Scene, degrees: f64) -> [f64; 2] {
+fn shares(mut scene: Scene, degrees: f64, cut: f64) -> [f64; 2] {
     let halves = [(1.0, 0.0), (0.0, 1.0)];
     halves.map(|(below, above)| {
         scene.environment = two_halves(below, above);
-        gather(&scene, DVec3::new(0.0, 0.0, 3.0), tilted(degrees), 1e-14).x
+        gather(&scene, DVec3::new(0.0, 0.0, 3.0), tilted(degrees), cut).x
     })
 }
 
@@ -43,7 +43,7 @@ fn close(found: f64, expected: f64, within: f64) {
 #[test]
 fn a_plate_reflects_2r_over_1_plus_r() {
     for (degrees, reflects) in [(0.0, 0.076_923), (60.0, 0.163_768)] {
-        let [passed, back] = shares(plates(1, 1.5), degrees);
+        let [passed, back] = shares(plates(1, 1.5), degrees, 1e-14);
         close(back, reflects, 5e-7);
         close(passed + back, 1.0, 1e-12);
         let r = fresnel(degrees.to_radians().cos(), 1.0, 1.5);
@@ -58,9 +58,9 @@ fn a_stack_of_plates_passes_what_its_surfaces_share() {
     for count in [2_u32, 3] {
         let surfaces = f64::from(2 * count);
         let r = fresnel(50.0_f64.to_radians().cos(), 1.0, 1.5);
-        let [passed, back] = shares(plates(count, 1.5), 50.0);
-        close(passed, (1.0 - r) / (1.0 + (surfaces - 1.0) * r), 1e-9);
-        close(passed + back, 1.0, 1e-9);
+        let [passed, back] = shares(plates(count, 1.5), 50.0, 1e-9);
+        close(passed, (1.0 - r) / (1.0 + (surfaces - 1.0) * r), 2e-5);
+        close(passed + back, 1.0, 2e-5);
     }
 }
 
@@ -69,7 +69,7 @@ fn an_absorbing_plate_sums_its_reflections_geometrically() {
     for (degrees, passes, reflects) in [(0.0, 0.339_111, 0.044_990), (60.0, 0.243_925, 0.095_579)] {
         let mut scene = plates(1, 1.5);
         scene.media[1].absorption_per_m = DVec3::ONE;
-        let [passed, back] = shares(scene, degrees);
+        let [passed, back] = shares(scene, degrees, 1e-14);
         close(passed, passes, 5e-7);
         close(back, reflects, 5e-7);
     }
