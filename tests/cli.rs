@@ -125,3 +125,16 @@ fn the_reference_writes_an_image_that_can_be_compared() {
     let scores = objects(&format!("compare {image} {image}"));
     assert_eq!(scores[0]["n"], 24 * 24);
 }
+
+/// What is missing is said before anything is measured, and nothing is answered.
+#[test]
+fn a_comparison_without_a_compiler_ends_with_status_2_and_names_the_packages() {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_snell-under-test"));
+    command.args(["bench", "--reference", "--against", "embree"]);
+    let ran = run(command.current_dir(root()).env("CXX", "no-such-compiler"));
+    assert_eq!(ran.status, Some(2), "{}", ran.message);
+    assert!(ran.message.contains("apt-get install libembree-dev g++"), "{}", ran.message);
+    assert_eq!(ran.answer, "");
+    let ran = snell("bench --reference --repetitions 3");
+    assert_eq!((ran.status, ran.answer.as_str()), (Some(2), ""));
+}

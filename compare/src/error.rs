@@ -1,5 +1,6 @@
 //! What can stop a command: where, what, and what to write instead.
 
+use crate::bench::BenchError;
 use crate::image_pair::ImagePairError;
 use crate::metric::JudgementError;
 use crate::report::ReportError;
@@ -46,6 +47,9 @@ pub enum Error {
     /// A study in which no method could show any scene.
     #[error("no method could show any of the scenes\n{}", reasons(.0))]
     NothingDone(Vec<NotDone>),
+    /// A speed that cannot be measured.
+    #[error(transparent)]
+    Bench(#[from] BenchError),
     /// Image files that cannot be compared.
     #[error(transparent)]
     ImagePair(#[from] ImagePairError),

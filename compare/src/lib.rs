@@ -1,5 +1,6 @@
 //! The judgement.
 
+pub mod bench;
 pub mod cache;
 pub mod cli;
 mod error;

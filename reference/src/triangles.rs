@@ -5,11 +5,14 @@ use crate::triangle::Triangle;
 use crate::wide::{Detected, Instructions, Query, Stack, Tree, TriangleHit};
 use glam::DVec3;
 use scenes::Ray;
+use std::sync::Arc;
 
-/// A soup of triangles and the tree over it.
+/// A soup of triangles and the tree over it. A clone, such as each thread needs
+/// one, shares the tree.
 #[derive(Clone, Debug)]
 pub struct Triangles {
-    tree: Tree,
+    tree: Arc<Tree>,
+    instructions: Detected,
     stack: Stack,
 }
 
@@ -37,13 +40,14 @@ impl Triangles {
             body: 0,
         };
         let triangles = corners.iter().enumerate().map(triangle).collect();
-        Self { tree: Tree::build(triangles), stack: Stack::default() }
+        let tree = Arc::new(Tree::build(triangles));
+        Self { instructions: tree.instructions, tree, stack: Stack::default() }
     }
 
     /// Answers from now on with these instructions, if the CPU has them.
     pub fn use_instructions(&mut self, instructions: Instructions) {
         if let Some(detected) = Detected::new(instructions) {
-            self.tree.instructions = detected;
+            self.instructions = detected;
         }
     }
 
@@ -54,8 +58,8 @@ impl Triangles {
     pub fn closest(&mut self, ray: &Ray, skip: u32, t_max_m: f64) -> Option<Hit> {
         let line = Line::new(ray.origin, ray.direction);
         let query = Query { skip, after: (0.0, u32::MAX) };
-        let found = self.tree.closest(&line, query, &mut self.stack).first.map(Hit::from);
-        found.filter(|hit| hit.t <= t_max_m)
+        let found = self.tree.closest_by(self.instructions, &line, query, &mut self.stack).first;
+        found.map(Hit::from).filter(|hit| hit.t <= t_max_m)
     }
 
     /// Every crossing of the full line, before and behind the origin, in no

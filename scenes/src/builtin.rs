@@ -123,6 +123,12 @@ impl Builtin {
     }
 }
 
+/// Where a file that set-up fetches is, or would be.
+#[must_use]
+pub fn asset(name: &str) -> PathBuf {
+    assets_folder().join(name)
+}
+
 /// Where set-up puts files that are fetched: `SNELL_ASSETS`, or `target/assets`
 /// in this folder or the nearest one above that has it.
 fn assets_folder() -> PathBuf {

@@ -3,6 +3,7 @@
 
 mod adapter;
 mod adapters;
+mod bench;
 mod compare;
 mod export;
 mod methods;
@@ -48,6 +49,7 @@ enum Command {
     Study(study::Args),
     Report(report::Args),
     Export(export::Args),
+    Bench(bench::Args),
 }
 
 impl Command {
@@ -63,6 +65,7 @@ impl Command {
             Self::Study(args) => study::run(args, output),
             Self::Report(args) => report::run(args, output),
             Self::Export(args) => export::run(args, output),
+            Self::Bench(args) => bench::run(args, output),
         }
     }
 }

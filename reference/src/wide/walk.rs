@@ -5,7 +5,7 @@
 //! answers with the same bits.
 
 use super::Tree;
-use super::instructions::Job;
+use super::instructions::{Detected, Job};
 use super::kernel::Kernel;
 use super::node::{Block, Child, LANES, Node, WIDTH};
 use super::ray::BoxRay;
@@ -44,7 +44,19 @@ impl Tree {
     /// is within rounding of the first.
     #[inline]
     pub(crate) fn closest(&self, line: &Line, query: Query, stack: &mut Stack) -> Closest {
-        self.instructions.run(Nearest { tree: self, line, query, stack })
+        self.closest_by(self.instructions, line, query, stack)
+    }
+
+    /// [`Self::closest`] with other instructions than the best.
+    #[inline]
+    pub(crate) fn closest_by(
+        &self,
+        instructions: Detected,
+        line: &Line,
+        query: Query,
+        stack: &mut Stack,
+    ) -> Closest {
+        instructions.run(Nearest { tree: self, line, query, stack })
     }
 
     /// Every crossing of the full line, in no particular order.

@@ -1,0 +1,62 @@
+//! Why a speed cannot be measured.
+
+use std::path::PathBuf;
+
+const ADVICE: &str = "on Debian or Ubuntu: apt-get install libembree-dev g++";
+
+/// What is missing or failed.
+#[derive(Debug, thiserror::Error)]
+pub enum BenchError {
+    /// There is no such compiler.
+    #[error(
+        "Embree's side is compiled when it is needed, and the compiler \"{compiler}\" cannot be \
+         started: {source}\n{ADVICE}"
+    )]
+    Compiler {
+        /// What was to be run.
+        compiler: String,
+        /// The system's answer.
+        source: std::io::Error,
+    },
+    /// The compiler does not find Embree, or something else.
+    #[error("Embree's side cannot be compiled with \"{compiler}\"\n{ADVICE}\n{said}")]
+    Compile {
+        /// What was run.
+        compiler: String,
+        /// The first lines it wrote.
+        said: String,
+    },
+    /// The other program broke off.
+    #[error("{program} {why}")]
+    Other {
+        /// Which one.
+        program: &'static str,
+        /// What happened.
+        why: String,
+    },
+    /// A file between the two programs.
+    #[error("{}: {source}", path.display())]
+    File {
+        /// Which one.
+        path: PathBuf,
+        /// The system's answer.
+        source: std::io::Error,
+    },
+    /// No threads.
+    #[error("threads cannot be started: {0}")]
+    Threads(#[from] rayon::ThreadPoolBuildError),
+    /// Answers that should be equal are not: our mistake.
+    #[error("{what} do not answer as {than} do; please report this")]
+    Disagree {
+        /// Which answers.
+        what: String,
+        /// The ones they should equal.
+        than: String,
+    },
+    /// Only Linux tells a process how much memory it holds.
+    #[error("/proc/self/status does not say {0}: memory can be measured on Linux only")]
+    NoMemoryFigures(&'static str),
+    /// A scene that the renderer refuses.
+    #[error(transparent)]
+    Reference(#[from] reference::Error),
+}
