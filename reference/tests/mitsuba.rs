@@ -28,7 +28,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 const SIZE_PX: usize = 256;
-const ALL: [bool; SIZE_PX * SIZE_PX] = [false; SIZE_PX * SIZE_PX];
+static ALL: [bool; SIZE_PX * SIZE_PX] = [false; SIZE_PX * SIZE_PX];
 /// Their limit on edges of a path; one event less fits on it.
 const EDGES: u32 = 256;
 
