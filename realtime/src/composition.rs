@@ -1,49 +1,25 @@
 //! Which pieces of WGSL make up a frame, and what follows from them: the passes,
 //! the buffers, and what is left out.
 
-use crate::geometry::{Formula, Geometry};
+use crate::backdrop::Backdrop;
+use crate::geometry::Geometry;
+use crate::interior::Interior;
 use crate::method::{Method, Settings};
+use crate::surfaces::{STORED, Sides, Surfaces, Target, target};
 use crate::wgsl::{Piece, Shader};
 use crate::{Error, Request};
-use scenes::{Camera, Environment, LayerName, Projection};
+use scenes::{Camera, Environment, LayerName, Projection, Scene};
 
 macro_rules! piece {
     ($name:literal) => {
-        Piece::new($name, include_str!(concat!("shaders/", $name)))
+        $crate::wgsl::Piece::new($name, include_str!(concat!("shaders/", $name)))
     };
 }
-
-/// A buffer of the surfaces that a raster pass can write.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Target {
-    pub(crate) name: &'static str,
-    pub(crate) format: wgpu::TextureFormat,
-    pub(crate) channels: u32,
-    wgsl_type: &'static str,
-    value: &'static str,
-}
-
-const RGBA: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
-const R: wgpu::TextureFormat = wgpu::TextureFormat::R32Float;
-
-const fn target(name: &'static str, rgba: bool, value: &'static str) -> Target {
-    if rgba {
-        Target { name, format: RGBA, channels: 4, wgsl_type: "vec4f", value }
-    } else {
-        Target { name, format: R, channels: 1, wgsl_type: "f32", value }
-    }
-}
-
-impl Target {
-    /// The name as an identifier.
-    fn field(&self) -> String {
-        self.name.replace(' ', "_")
-    }
-}
+pub(crate) use piece;
 
 /// Everything the front pass can write.
 const FRONT: [Target; 5] = [
-    target("front_normal", true, "vec4f(normalize(v.normal_ws), v.body)"),
+    target("front_normal", true, "vec4f(surface_normal_ws(v), v.body)"),
     target("front_depth", false, "depth_of_m(v.p_lc)"),
     target("front_geometric", true, "vec4f(v.geometric_ws, 1.0)"),
     target("front_vector", true, "vec4f(v.vector_ws, 1.0)"),
@@ -52,44 +28,12 @@ const FRONT: [Target; 5] = [
 
 /// Everything the back pass can write.
 const BACK: [Target; 2] = [
-    target("back_normal", true, "vec4f(normalize(v.normal_ws), 1.0)"),
+    target("back_normal", true, "vec4f(stored_normal(surface_normal_ws(v)), v.body)"),
     target("back_depth", false, "depth_of_m(v.p_lc)"),
 ];
 
-/// What a peeling pass writes as colour: nothing. A raster pass must have a target.
-const STORED: Target = Target {
-    name: "no colour",
-    format: wgpu::TextureFormat::R8Unorm,
-    channels: 1,
-    wgsl_type: "vec4f",
-    value: "store_interface(v)",
-};
-
 /// Images that the shading pass can write.
 pub(crate) const OUTPUTS: [&str; 5] = ["radiance", "exit", "first", "hit2", "count"];
-
-/// A raster pass over the bodies.
-pub(crate) struct Surfaces {
-    pub(crate) name: &'static str,
-    pub(crate) targets: Vec<Target>,
-    pub(crate) mesh: Option<Shader>,
-    pub(crate) analytic: Vec<(Formula, Shader)>,
-    pub(crate) sides: Sides,
-}
-
-/// Which sides of the bodies a raster pass draws.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Sides {
-    /// Those that face the eye, nearest first.
-    Front,
-    /// Those that face away; the farthest or the nearest of them is kept.
-    Back {
-        /// Keep the farthest.
-        farthest: bool,
-    },
-    /// All of them, without a depth test.
-    All,
-}
 
 /// The passes that collect and sort every interface of a pixel.
 pub(crate) struct Peel {
@@ -102,9 +46,11 @@ pub(crate) struct Peel {
 pub(crate) struct Composition {
     pub(crate) shade: Shader,
     pub(crate) outputs: Vec<&'static str>,
+    pub(crate) backdrop: Option<Backdrop>,
     pub(crate) front: Surfaces,
     pub(crate) back: Option<Surfaces>,
     pub(crate) peel: Option<Peel>,
+    pub(crate) interior: Option<Interior>,
 }
 
 /// How the environment is looked up.
@@ -116,90 +62,143 @@ pub enum Filter {
     Hardware,
 }
 
-impl Composition {
-    pub(crate) fn new(
-        method: &Method,
-        settings: &Settings,
-        scene: &scenes::Scene,
-        camera: &Camera,
-        geometry: &Geometry,
-        request: &Request,
-        outputs: Vec<&'static str>,
-    ) -> Result<Self, Error> {
-        let camera_piece = camera_piece(camera);
-        let method_pieces = (method.pieces)(settings)?;
-        let mut pieces = vec![piece!("frame.wgsl"), camera_piece.clone(), piece!("interface.wgsl")];
-        pieces.push(match (&scene.environment, request.filter) {
-            (Environment::Uniform(_), _) => piece!("environment_uniform.wgsl"),
-            (_, Filter::Manual) => piece!("environment_manual.wgsl"),
-            (_, Filter::Hardware) => piece!("environment_sampler.wgsl"),
-        });
-        pieces.extend([piece!("front.wgsl"), piece!("back.wgsl"), piece!("shade.wgsl")]);
-        let pack =
-            if geometry.nested { piece!("pack_nested.wgsl") } else { piece!("pack_single.wgsl") };
-        let media =
-            if geometry.nested { piece!("media_nested.wgsl") } else { piece!("media_single.wgsl") };
-        pieces.extend([pack.clone(), piece!("layers.wgsl"), media, piece!("march.wgsl")]);
-        pieces.push(if geometry.smooth {
-            piece!("geometric_stored.wgsl")
-        } else {
-            piece!("geometric_same.wgsl")
-        });
-        pieces.push(piece!("first_event.wgsl"));
-        pieces.push(if geometry.absorbs {
-            piece!("absorb.wgsl")
-        } else {
-            piece!("absorb_none.wgsl")
-        });
-        pieces.extend(reflection(settings));
-        pieces.push(outputs_piece(&outputs));
-        pieces.extend(method_pieces);
-        let shade = Shader::link(&pieces)?;
-        let wanted =
-            |target: &Target| shade.uses(&["shade"], target.name) || asked(request, target.name);
-        let front: Vec<Target> = FRONT.into_iter().filter(wanted).collect();
-        let back: Vec<Target> = BACK.into_iter().filter(wanted).collect();
-        let vector = vector_piece(method, settings);
-        let mut head = vec![piece!("frame.wgsl"), camera_piece];
-        head.extend(vector);
-        let surfaces = |name, targets, sides| Surfaces::new(name, targets, sides, &head, geometry);
-        let farthest = settings.word_if_any("back_select") != Some("nearest");
-        let peel = if shade.uses(&["shade"], "slot_counts") {
-            let sort = Shader::link(&[piece!("frame.wgsl"), piece!("peel_sort.wgsl")])?;
-            let store = |name, store: Vec<Piece>| {
-                let head: Vec<Piece> = head.iter().cloned().chain(store).collect();
-                Surfaces::new(name, vec![STORED], Sides::All, &head, geometry)
-            };
-            Some(Peel {
-                count: store("count layers", vec![piece!("peel_count.wgsl")])?,
-                collect: store("collect layers", vec![pack, piece!("peel_slots.wgsl")])?,
-                sort,
-            })
-        } else {
-            None
-        };
-        Ok(Self {
-            front: surfaces("front", front, Sides::Front)?,
-            peel,
-            back: if back.is_empty() {
-                None
-            } else {
-                Some(surfaces("back", back, Sides::Back { farthest })?)
-            },
-            shade,
-            outputs,
-        })
-    }
+/// What is to be composed.
+#[derive(Clone, Copy)]
+pub(crate) struct Order<'a> {
+    pub(crate) method: &'a Method,
+    pub(crate) settings: &'a Settings,
+    pub(crate) scene: &'a Scene,
+    pub(crate) camera: &'a Camera,
+    pub(crate) geometry: &'a Geometry,
+    pub(crate) request: &'a Request,
+    /// Images that shading writes.
+    pub(crate) outputs: &'a [&'static str],
+    /// Of the surface buffers.
+    pub(crate) resolution_px: [u32; 2],
 }
 
 impl Composition {
+    pub(crate) fn new(order: &Order<'_>) -> Result<Self, Error> {
+        let Order { settings, geometry, .. } = *order;
+        let shade = Shader::link(&shade_pieces(order)?)?;
+        let head = order.raster_head();
+        let interior = Interior::new(order, &head)?;
+        let wanted = |target: &Target| {
+            let inside = interior.as_ref().is_some_and(|interior| interior.reads(target.name));
+            shade.uses(&["shade"], target.name) || inside || asked(order.request, target.name)
+        };
+        let front: Vec<Target> = FRONT.into_iter().filter(wanted).collect();
+        let back: Vec<Target> = BACK.into_iter().filter(wanted).collect();
+        let surfaces =
+            |name, targets, sides| Surfaces::new(name, targets, sides, &head, &geometry.bodies);
+        let farthest = settings.word_if_any("back_select") != Some("nearest");
+        let back = (!back.is_empty()).then(|| surfaces("back", back, Sides::Back { farthest }));
+        let peels = shade.uses(&["shade"], "slot_counts")
+            || interior.as_ref().is_some_and(|interior| interior.reads("slot_counts"));
+        Ok(Self {
+            backdrop: Backdrop::new(order)?,
+            front: surfaces("front", front, Sides::Front)?,
+            back: back.transpose()?,
+            peel: if peels { Some(Peel::new(order, &head)?) } else { None },
+            interior,
+            shade,
+            outputs: order.outputs.to_vec(),
+        })
+    }
+
     /// True if some pass reads the distance through the body.
     pub(crate) fn reads_thickness(&self) -> bool {
         self.front.targets.iter().any(|target| target.name == "front_thickness")
     }
+
+    /// True if cracks are drawn that end at the body's surface by themselves.
+    pub(crate) fn draws_clipped_cracks(&self) -> bool {
+        self.interior.as_ref().is_some_and(|interior| interior.clipped_sheets)
+    }
 }
 
-fn asked(request: &Request, name: &str) -> bool {
+impl Peel {
+    fn new(order: &Order<'_>, head: &[Piece]) -> Result<Self, Error> {
+        let sort = Shader::link(&[piece!("frame.wgsl"), piece!("peel_sort.wgsl")])?;
+        let store = |name, store: Vec<Piece>| {
+            let head: Vec<Piece> = head.iter().cloned().chain(store).collect();
+            Surfaces::new(name, vec![STORED], Sides::All, &head, &order.geometry.bodies)
+        };
+        let collect = vec![order.pack(), piece!("peel_slots.wgsl")];
+        Ok(Self {
+            count: store("count layers", vec![piece!("peel_count.wgsl")])?,
+            collect: store("collect layers", collect)?,
+            sort,
+        })
+    }
+}
+
+impl Order<'_> {
+    /// How an interface becomes 32 bits.
+    pub(crate) fn pack(&self) -> Piece {
+        if self.geometry.nested { piece!("pack_nested.wgsl") } else { piece!("pack_single.wgsl") }
+    }
+
+    /// What every pass that draws the bodies begins with.
+    fn raster_head(&self) -> Vec<Piece> {
+        let mut head = vec![piece!("frame.wgsl"), camera_piece(self.camera)];
+        head.extend(vector_piece(self.method, self.settings));
+        match self.geometry.bumps {
+            Some(_) => head.extend([piece!("noise.wgsl"), piece!("bump.wgsl")]),
+            None => head.push(piece!("bump_none.wgsl")),
+        }
+        head.push(stored_normal_piece(self.settings));
+        head
+    }
+
+    /// How the environment is looked up: the scene's, or one that was drawn.
+    pub(crate) fn environment_piece(&self, drawn: bool) -> Piece {
+        match (&self.scene.environment, self.request.filter) {
+            (Environment::Uniform(_), _) if !drawn => piece!("environment_uniform.wgsl"),
+            (_, Filter::Manual) => piece!("environment_manual.wgsl"),
+            (_, Filter::Hardware) => piece!("environment_sampler.wgsl"),
+        }
+    }
+}
+
+fn shade_pieces(order: &Order<'_>) -> Result<Vec<Piece>, Error> {
+    let Order { settings, geometry, .. } = *order;
+    let drawn = !geometry.opaque.is_empty();
+    let mut pieces =
+        vec![piece!("frame.wgsl"), camera_piece(order.camera), piece!("interface.wgsl")];
+    pieces.push(order.environment_piece(drawn));
+    let background =
+        if drawn { piece!("background_drawn.wgsl") } else { piece!("background_sky.wgsl") };
+    pieces.extend([piece!("front.wgsl"), piece!("back.wgsl"), background, piece!("shade.wgsl")]);
+    let media =
+        if geometry.nested { piece!("media_nested.wgsl") } else { piece!("media_single.wgsl") };
+    pieces.extend([order.pack(), piece!("layers.wgsl"), media, piece!("march.wgsl")]);
+    pieces.push(if geometry.bodies.smooth {
+        piece!("geometric_stored.wgsl")
+    } else {
+        piece!("geometric_same.wgsl")
+    });
+    pieces.push(piece!("first_event.wgsl"));
+    pieces.push(if geometry.absorbs { piece!("absorb.wgsl") } else { piece!("absorb_none.wgsl") });
+    pieces.extend(Interior::shown(order));
+    pieces.extend(reflection(settings));
+    pieces.push(outputs_piece(order.outputs));
+    pieces.extend((order.method.pieces)(settings)?);
+    Ok(pieces)
+}
+
+/// The precision of stored back normals.
+fn stored_normal_piece(settings: &Settings) -> Piece {
+    let body = match settings.word_if_any("back_format") {
+        // What an 8-bit texture keeps of (n + 1) / 2.
+        Some("8-bit") => "round((0.5 * n_ws + 0.5) * 255.0) / 127.5 - 1.0",
+        _ => "n_ws",
+    };
+    let text = format!("fn stored_normal(n_ws: vec3f) -> vec3f {{ return {body}; }}\n");
+    Piece::new("stored normal", text)
+}
+
+pub(crate) fn asked(request: &Request, name: &str) -> bool {
     request.view.layers.iter().any(|layer| match layer {
         LayerName::Buffer(buffer) if buffer == "thickness" => name.ends_with("_depth"),
         LayerName::Buffer(buffer) => buffer == name,
@@ -207,7 +206,7 @@ fn asked(request: &Request, name: &str) -> bool {
     })
 }
 
-fn camera_piece(camera: &Camera) -> Piece {
+pub(crate) fn camera_piece(camera: &Camera) -> Piece {
     match camera.projection {
         Projection::Perspective { .. } => piece!("camera_perspective.wgsl"),
         Projection::Orthographic { .. } => piece!("camera_orthographic.wgsl"),
@@ -268,10 +267,7 @@ fn vector_piece(method: &Method, settings: &Settings) -> Vec<Piece> {
             format!("return bend(v_ws, n_ws, frame.eta_outside / ({index})).direction;")
         }
         _ => {
-            return vec![Piece::new(
-                "no vertex vector",
-                "fn vertex_vector(v_ws: vec3f, n_ws: vec3f, body: u32) -> vec3f { return vec3f(0.0); }\n",
-            )];
+            return vec![no_vector_piece()];
         }
     };
     let text = format!(
@@ -281,83 +277,10 @@ fn vector_piece(method: &Method, settings: &Settings) -> Vec<Piece> {
     vec![piece!("interface.wgsl"), Piece::new("vertex vector", text)]
 }
 
-impl Surfaces {
-    fn new(
-        name: &'static str,
-        targets: Vec<Target>,
-        sides: Sides,
-        head: &[Piece],
-        geometry: &Geometry,
-    ) -> Result<Self, Error> {
-        let link =
-            |tail: Vec<Piece>| Shader::link(&head.iter().cloned().chain(tail).collect::<Vec<_>>());
-        let generated = targets_piece(&targets);
-        let mesh = if geometry.corners.is_empty() {
-            None
-        } else {
-            Some(link(vec![piece!("raster_mesh.wgsl"), generated.clone()])?)
-        };
-        let mut formulas: Vec<Formula> = geometry.formulas();
-        formulas.sort();
-        formulas.dedup();
-        let analytic = formulas
-            .into_iter()
-            .map(|formula| {
-                let depth = sides != Sides::All;
-                let pieces = vec![
-                    analytic_piece(&targets, depth),
-                    formula_piece(formula),
-                    generated.clone(),
-                ];
-                Ok((formula, link(pieces)?))
-            })
-            .collect::<Result<_, Error>>()?;
-        Ok(Self { name, targets, mesh, analytic, sides })
-    }
-}
-
-fn formula_piece(formula: Formula) -> Piece {
-    match formula {
-        Formula::Sphere => piece!("intersect_sphere.wgsl"),
-        Formula::Box => piece!("intersect_box.wgsl"),
-        Formula::Cylinder => piece!("intersect_cylinder.wgsl"),
-        Formula::HalfSpace => piece!("intersect_half_space.wgsl"),
-    }
-}
-
-fn targets_piece(targets: &[Target]) -> Piece {
-    let fields: String = targets
-        .iter()
-        .enumerate()
-        .map(|(i, target)| {
-            format!("    @location({i}) {}: {},\n", target.field(), target.wgsl_type)
-        })
-        .collect();
-    let values: Vec<_> = targets.iter().map(|target| target.value).collect();
+/// For passes whose vertices have nothing to hand on.
+pub(crate) fn no_vector_piece() -> Piece {
     Piece::new(
-        "targets",
-        format!(
-            "struct Targets {{\n{fields}}}\nfn targets(v: Varyings) -> Targets {{ return Targets({}); }}\n",
-            values.join(", ")
-        ),
+        "no vertex vector",
+        "fn vertex_vector(v_ws: vec3f, n_ws: vec3f, body: u32) -> vec3f { return vec3f(0.0); }\n",
     )
-}
-
-fn analytic_piece(targets: &[Target], depth: bool) -> Piece {
-    let fields: String = targets
-        .iter()
-        .enumerate()
-        .map(|(i, target)| {
-            format!("    @location({i}) {}: {},\n", target.field(), target.wgsl_type)
-        })
-        .collect();
-    let values: Vec<_> = targets.iter().map(|target| format!("out.{}", target.field())).collect();
-    let (depth_field, depth_value) =
-        if depth { ("@builtin(frag_depth) depth: f32,", "clip.z / clip.w, ") } else { ("", "") };
-    let text = include_str!("shaders/raster_analytic.wgsl")
-        .replace("ANALYTIC_DEPTH_FIELD", depth_field)
-        .replace("ANALYTIC_DEPTH_VALUE", depth_value)
-        .replace("ANALYTIC_FIELDS", fields.trim_end())
-        .replace("ANALYTIC_VALUES", &values.join(", "));
-    Piece::new("raster_analytic.wgsl", text)
 }

@@ -1,8 +1,10 @@
 //! The frame, in the order in which it runs. Read this first: [`Frame::record`]
 //! is everything that happens on the GPU.
 
+use crate::backdrop::DrawnBackdrop;
 use crate::composition::Composition;
 use crate::geometry::Geometry;
+use crate::interior::DrawnInterior;
 use crate::peel::Peeled;
 use crate::pipelines::{DrawnSurfaces, Maker, OverPixels};
 use crate::recorder::{Allocator, Recorder};
@@ -26,22 +28,31 @@ pub(crate) struct Viewed<'a> {
 /// Pipelines and memory of a frame, ready to run any number of times.
 pub(crate) struct Frame {
     resolution_px: [u32; 2],
+    backdrop: Option<DrawnBackdrop>,
     front: DrawnSurfaces,
     back: Option<DrawnSurfaces>,
     peel: Option<Peeled>,
+    interior: Option<DrawnInterior>,
     shade: OverPixels,
     pub(crate) resources: Resources,
 }
 
 impl Frame {
-    /// Everything that happens, in order.
-    pub(crate) fn record(&self, recorder: &mut Recorder<'_>) {
+    /// Everything that happens, in order. What never changes is drawn only in
+    /// the first frame.
+    pub(crate) fn record(&self, recorder: &mut Recorder<'_>, first: bool) {
+        if let Some(backdrop) = &self.backdrop {
+            backdrop.record(recorder, first);
+        }
         self.front.record(recorder, &self.resources);
         if let Some(back) = &self.back {
             back.record(recorder, &self.resources);
         }
         if let Some(peel) = &self.peel {
             peel.record(recorder, &self.resources, self.resolution_px);
+        }
+        if let Some(interior) = &self.interior {
+            interior.record(recorder);
         }
         self.shade.record(recorder, "shade", self.resolution_px);
     }
@@ -60,7 +71,15 @@ impl Frame {
     ) -> Result<Self, Error> {
         let mut resources = Resources::default();
         upload_numbers(allocator, view, &mut resources)?;
-        upload_environment(gpu, allocator, composition, view.environment, &mut resources)?;
+        let backdrop = composition
+            .backdrop
+            .as_ref()
+            .map(|backdrop| DrawnBackdrop::new(gpu, allocator, backdrop, view, &mut resources));
+        let backdrop = backdrop.transpose()?;
+        if backdrop.is_none() {
+            let reader = (&composition.shade, "shade");
+            upload_environment(gpu, allocator, reader, view.environment, &mut resources)?;
+        }
         for output in &composition.outputs {
             let usage = TextureUsages::STORAGE_BINDING | TextureUsages::COPY_SRC;
             let size = [view.resolution_px[0], view.resolution_px[1], 1];
@@ -68,14 +87,21 @@ impl Frame {
                 allocator.texture(output, size, wgpu::TextureFormat::Rgba32Float, usage)?;
             resources.texture(output, texture);
         }
-        let maker = Maker::new(gpu, allocator, view)?;
+        let bodies = &view.geometry.bodies;
+        let maker = Maker::new(gpu, allocator, bodies, view.resolution_px)?;
         let front = maker.surfaces(&composition.front, &mut resources)?;
         let back = composition.back.as_ref();
         let back = back.map(|back| maker.surfaces(back, &mut resources)).transpose()?;
         let peel = composition.peel.as_ref();
         let peel = peel.map(|peel| Peeled::new(&maker, peel, view, &mut resources)).transpose()?;
+        let interior = composition
+            .interior
+            .as_ref()
+            .map(|interior| DrawnInterior::new(&maker, interior, view, &mut resources));
+        let interior = interior.transpose()?;
         let shade = maker.over_pixels(&composition.shade, "shade", &resources)?;
-        Ok(Self { resolution_px: view.resolution_px, front, back, peel, shade, resources })
+        let resolution_px = view.resolution_px;
+        Ok(Self { resolution_px, backdrop, front, back, peel, interior, shade, resources })
     }
 }
 
@@ -90,11 +116,17 @@ fn upload_numbers(
     let frame = frame_bytes(view, 0);
     resources.buffer("frame", allocator.filled("frame", &frame, uniform)?);
     let mut list = [uniforms::Body::default(); MAX_BODIES];
-    list[..geometry.bodies.len()].copy_from_slice(&geometry.bodies);
+    list[..geometry.media.len()].copy_from_slice(&geometry.media);
     // Numbers that no body has.
-    list[geometry.bodies.len()..].iter_mut().for_each(|body| body.solid = u32::MAX - 1);
+    list[geometry.media.len()..].iter_mut().for_each(|body| body.solid = u32::MAX - 1);
     let bodies = uniforms::bytes_of(&Bodies { list });
     resources.buffer("bodies", allocator.filled("bodies", &bodies, uniform)?);
+    if let Some(bumps) = &geometry.bumps {
+        let mut list = [uniforms::Bump::default(); MAX_BODIES];
+        list.copy_from_slice(bumps);
+        let bytes = uniforms::bytes_of(&uniforms::Bumps { list });
+        resources.buffer("bumps", allocator.filled("bumps", &bytes, uniform)?);
+    }
     Ok(())
 }
 
@@ -110,10 +142,15 @@ pub(crate) fn set_layer_capacity(
 }
 
 fn frame_bytes(view: &Viewed<'_>, layer_capacity: u32) -> Vec<u8> {
+    uniforms::bytes_of(&numbers(view, layer_capacity))
+}
+
+/// The camera's numbers, as the shaders see them.
+pub(crate) fn numbers(view: &Viewed<'_>, layer_capacity: u32) -> uniforms::Frame {
     let Viewed { geometry, camera, eta_outside, resolution_px, .. } = *view;
     let (centre, radius_m) = (geometry.centre, geometry.radius_m);
-    uniforms::bytes_of(&uniforms::Frame {
+    uniforms::Frame {
         layer_capacity,
         ..uniforms::Frame::new(camera, resolution_px, centre, radius_m, eta_outside)
-    })
+    }
 }

@@ -5,12 +5,15 @@
 //! reads. This crate knows nothing of the exact renderer, and only this crate
 //! knows wgpu.
 
+mod backdrop;
 mod composition;
 mod error;
 mod frame;
 mod geometry;
 mod gpu;
+mod interior;
 pub mod method;
+mod parts;
 mod peel;
 mod pipelines;
 mod plan;
@@ -19,6 +22,7 @@ mod recorder;
 mod render;
 mod resources;
 mod sky;
+mod surfaces;
 mod thickness;
 mod uniforms;
 mod wgsl;

@@ -1,11 +1,10 @@
 //! Pipelines made from shaders: raster passes over the bodies and compute passes
 //! over the pixels. Layouts come from the WGSL.
 
-use crate::composition::{Sides, Surfaces};
-use crate::frame::Viewed;
-use crate::geometry::{Corner, Draw, Formula, Geometry};
+use crate::parts::{Corner, Draw, Formula, Parts};
 use crate::recorder::{Allocator, Recorder};
 use crate::resources::Resources;
+use crate::surfaces::{Sides, Surfaces, Target};
 use crate::uniforms::{self, Analytic};
 use crate::wgsl::Shader;
 use crate::{Error, Gpu};
@@ -14,10 +13,11 @@ use std::ops::Range;
 use wgpu::TextureUsages;
 
 /// What every pass of a frame is made with.
+#[derive(Clone)]
 pub(crate) struct Maker<'a> {
     pub(crate) gpu: &'a Gpu,
     pub(crate) allocator: &'a Allocator<'a>,
-    geometry: &'a Geometry,
+    parts: &'a Parts,
     corners: Option<wgpu::Buffer>,
     resolution_px: [u32; 2],
 }
@@ -27,6 +27,7 @@ pub(crate) struct DrawnSurfaces {
     name: &'static str,
     targets: Vec<&'static str>,
     depth: Option<(wgpu::TextureView, f32)>,
+    behind: Option<(wgpu::RenderPipeline, wgpu::BindGroup)>,
     mesh: Option<(wgpu::RenderPipeline, wgpu::BindGroup, wgpu::Buffer)>,
     analytic: Vec<(wgpu::RenderPipeline, wgpu::BindGroup)>,
     triangles: Vec<Range<u32>>,
@@ -56,6 +57,11 @@ impl DrawnSurfaces {
             self.targets.iter().map(|name| (resources.view(name), clear)).collect();
         let depth = self.depth.as_ref().map(|(view, clear)| (view, *clear));
         recorder.raster(self.name, &colours, depth, |pass| {
+            if let Some((pipeline, bindings)) = &self.behind {
+                pass.set_pipeline(pipeline);
+                pass.set_bind_group(0, bindings, &[]);
+                pass.draw(0..3, 0..1);
+            }
             if let Some((pipeline, bindings, corners)) = &self.mesh {
                 pass.set_pipeline(pipeline);
                 pass.set_bind_group(0, bindings, &[]);
@@ -73,20 +79,33 @@ impl DrawnSurfaces {
     }
 }
 
+impl DrawnSurfaces {
+    /// The same under another name.
+    pub(crate) fn named(mut self, name: &'static str) -> Self {
+        self.name = name;
+        self
+    }
+}
+
 impl<'a> Maker<'a> {
     pub(crate) fn new(
         gpu: &'a Gpu,
         allocator: &'a Allocator<'a>,
-        view: &Viewed<'a>,
+        parts: &'a Parts,
+        resolution_px: [u32; 2],
     ) -> Result<Self, Error> {
-        let geometry = view.geometry;
-        let corners = if geometry.corners.is_empty() {
+        let corners = if parts.corners.is_empty() {
             None
         } else {
-            let bytes = bytemuck::cast_slice(&geometry.corners);
+            let bytes = bytemuck::cast_slice(&parts.corners);
             Some(allocator.filled("corners", bytes, wgpu::BufferUsages::VERTEX)?)
         };
-        Ok(Self { gpu, allocator, geometry, corners, resolution_px: view.resolution_px })
+        Ok(Self { gpu, allocator, parts, corners, resolution_px })
+    }
+
+    /// The same parts at another resolution.
+    pub(crate) fn resized(self, resolution_px: [u32; 2]) -> Self {
+        Self { resolution_px, ..self }
     }
 
     /// A compute pass whose entry point has the given name.
@@ -129,22 +148,23 @@ impl<'a> Maker<'a> {
             name: surfaces.name,
             targets: surfaces.targets.iter().map(|target| target.name).collect(),
             depth: self.depth_test(surfaces, size)?,
+            behind: self.behind(surfaces, resources)?,
             mesh: self.mesh(surfaces, resources)?,
             analytic: Vec::new(),
             triangles: Vec::new(),
         };
-        for draw in &self.geometry.draws {
+        for draw in &self.parts.draws {
             match draw {
                 Draw::Triangles(range) => drawn.triangles.push(range.clone()),
                 Draw::Analytic(formula, placed, size_m, body) => {
                     let far_sides: &[bool] = match surfaces.sides {
                         Sides::Front => &[false],
                         Sides::Back { .. } => &[true],
-                        Sides::All => &[false, true],
+                        _ => &[false, true],
                     };
                     for far in far_sides {
                         let uniform =
-                            Analytic::new(placed, self.geometry.centre, *size_m, *body, *far);
+                            Analytic::new(placed, self.parts.centre, *size_m, *body, *far);
                         drawn
                             .analytic
                             .extend(self.analytic(surfaces, resources, *formula, &uniform)?);
@@ -161,7 +181,7 @@ impl<'a> Maker<'a> {
         size: [u32; 3],
     ) -> Result<Option<(wgpu::TextureView, f32)>, Error> {
         let clear = match surfaces.sides {
-            Sides::All => return Ok(None),
+            sides if !sides.has_depth() => return Ok(None),
             Sides::Back { farthest: true } => 0.0,
             _ => 1.0,
         };
@@ -172,6 +192,19 @@ impl<'a> Maker<'a> {
         Ok(Some((depth.create_view(&wgpu::TextureViewDescriptor::default()), clear)))
     }
 
+    fn behind(
+        &self,
+        surfaces: &Surfaces,
+        resources: &Resources,
+    ) -> Result<Option<(wgpu::RenderPipeline, wgpu::BindGroup)>, Error> {
+        let Some(shader) = &surfaces.behind else { return Ok(None) };
+        let entries = ["sky_vertex", "sky_fragment"];
+        let pipeline = self.raster_pipeline(surfaces, shader, entries);
+        let layout = pipeline.get_bind_group_layout(0);
+        let bindings = resources.bind(self.gpu, shader, &entries, &layout, &[])?;
+        Ok(Some((pipeline, bindings)))
+    }
+
     fn mesh(
         &self,
         surfaces: &Surfaces,
@@ -180,9 +213,9 @@ impl<'a> Maker<'a> {
         let (Some(shader), Some(corners)) = (&surfaces.mesh, &self.corners) else {
             return Ok(None);
         };
-        let pipeline = self.raster_pipeline(surfaces, shader, true);
+        let entries = MESH;
+        let pipeline = self.raster_pipeline(surfaces, shader, entries);
         let layout = pipeline.get_bind_group_layout(0);
-        let entries = ["mesh_vertex", "mesh_fragment"];
         let bindings = resources.bind(self.gpu, shader, &entries, &layout, &[])?;
         Ok(Some((pipeline, bindings, corners.clone())))
     }
@@ -198,11 +231,11 @@ impl<'a> Maker<'a> {
         else {
             return Ok(None);
         };
-        let pipeline = self.raster_pipeline(surfaces, shader, false);
+        let entries = ["analytic_vertex", "analytic_fragment"];
+        let pipeline = self.raster_pipeline(surfaces, shader, entries);
         let bytes = uniforms::bytes_of(uniform);
         let buffer = self.allocator.filled("analytic", &bytes, wgpu::BufferUsages::UNIFORM)?;
         let layout = pipeline.get_bind_group_layout(0);
-        let entries = ["analytic_vertex", "analytic_fragment"];
         let own = [("analytic", &buffer)];
         Ok(Some((pipeline, resources.bind(self.gpu, shader, &entries, &layout, &own)?)))
     }
@@ -218,8 +251,9 @@ impl<'a> Maker<'a> {
         &self,
         surfaces: &Surfaces,
         shader: &Shader,
-        mesh: bool,
+        [vertex, fragment]: [&str; 2],
     ) -> wgpu::RenderPipeline {
+        let mesh = vertex == MESH[0];
         let module = self.module(shader);
         let attributes = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x3, 3 => Float32, 4 => Float32];
         let buffers = [Some(wgpu::VertexBufferLayout {
@@ -227,23 +261,15 @@ impl<'a> Maker<'a> {
             step_mode: wgpu::VertexStepMode::Vertex,
             attributes: &attributes,
         })];
-        let all = surfaces.sides == Sides::All;
-        let targets: Vec<_> = surfaces
-            .targets
-            .iter()
-            .map(|target| {
-                let write_mask =
-                    if all { wgpu::ColorWrites::empty() } else { wgpu::ColorWrites::ALL };
-                Some(wgpu::ColorTargetState { format: target.format, blend: None, write_mask })
-            })
-            .collect();
+        let targets: Vec<_> =
+            surfaces.targets.iter().map(|t| Some(colour_state(t, surfaces.sides))).collect();
         let options = wgpu::PipelineCompilationOptions::default;
         self.gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(surfaces.name),
             layout: None,
             vertex: wgpu::VertexState {
                 module: &module,
-                entry_point: Some(if mesh { "mesh_vertex" } else { "analytic_vertex" }),
+                entry_point: Some(vertex),
                 compilation_options: options(),
                 buffers: if mesh { &buffers } else { &[] },
             },
@@ -261,7 +287,7 @@ impl<'a> Maker<'a> {
             multisample: wgpu::MultisampleState::default(),
             fragment: Some(wgpu::FragmentState {
                 module: &module,
-                entry_point: Some(if mesh { "mesh_fragment" } else { "analytic_fragment" }),
+                entry_point: Some(fragment),
                 compilation_options: options(),
                 targets: &targets,
             }),
@@ -271,11 +297,35 @@ impl<'a> Maker<'a> {
     }
 }
 
+/// Entry points that read corners of triangles.
+const MESH: [&str; 2] = ["mesh_vertex", "mesh_fragment"];
+
+fn colour_state(target: &Target, sides: Sides) -> wgpu::ColorTargetState {
+    let write_mask = match sides {
+        Sides::All => wgpu::ColorWrites::empty(),
+        _ => wgpu::ColorWrites::ALL,
+    };
+    let add = |dst_factor| wgpu::BlendComponent {
+        src_factor: wgpu::BlendFactor::One,
+        dst_factor,
+        operation: wgpu::BlendOperation::Add,
+    };
+    let factor = match sides {
+        Sides::Sum => Some(wgpu::BlendFactor::One),
+        Sides::Over => Some(wgpu::BlendFactor::OneMinusSrcAlpha),
+        _ => None,
+    };
+    // A mask has one channel of 32 bits and is written, not summed.
+    let factor = factor.filter(|_| target.channels > 1);
+    let blend = factor.map(|f| wgpu::BlendState { color: add(f), alpha: add(f) });
+    wgpu::ColorTargetState { format: target.format, blend, write_mask }
+}
+
 fn culled(sides: Sides) -> Option<wgpu::Face> {
     match sides {
         Sides::Front => Some(wgpu::Face::Back),
         Sides::Back { .. } => Some(wgpu::Face::Front),
-        Sides::All => None,
+        _ => None,
     }
 }
 
@@ -283,6 +333,8 @@ fn compare(sides: Sides) -> Option<wgpu::CompareFunction> {
     match sides {
         Sides::Back { farthest: true } => Some(wgpu::CompareFunction::Greater),
         Sides::Front | Sides::Back { farthest: false } => Some(wgpu::CompareFunction::Less),
-        Sides::All => None,
+        // What lies beyond the far plane still covers the sky.
+        Sides::Opaque => Some(wgpu::CompareFunction::LessEqual),
+        _ => None,
     }
 }

@@ -1,15 +1,19 @@
 //! What will run for a scene, and what is left out and why: derived from the
 //! composition, before anything exists on a GPU.
 
-use crate::composition::{Composition, OUTPUTS};
-use crate::geometry::{Corner, Geometry};
+use crate::backdrop::{Backdrop, FACES};
+use crate::composition::{Composition, OUTPUTS, Order};
+use crate::geometry::Geometry;
+use crate::interior::Interior;
 use crate::method::{Method, Settings};
-use crate::render::{self, Part, Request};
+use crate::parts::{Corner, Parts};
+use crate::render::{self, Part, Request, THICKNESS};
+use crate::surfaces::Surfaces;
 use crate::uniforms::{self, Bodies};
 use crate::{Error, Filter};
 use encase::ShaderType;
 use scenes::plan::{Buffer, Kind, Unsupported};
-use scenes::{Environment, Plan, Scene, Surface};
+use scenes::{Environment, Plan, Scene};
 
 /// What a method will do with a scene.
 ///
@@ -23,9 +27,21 @@ pub fn plan(scene: &Scene, request: &Request) -> Result<Plan, Error> {
     let outputs = render::outputs(method, request)?;
     let mut plan = Plan::default();
     for part in render::parts(request, &outputs) {
-        let (request, outputs) = (&part.request, part.outputs.clone());
-        let composition =
-            Composition::new(method, &settings, scene, &camera, &geometry, request, outputs)?;
+        let order = Order {
+            method,
+            settings: &settings,
+            scene,
+            camera: &camera,
+            geometry: &geometry,
+            request: &part.request,
+            outputs: &part.outputs,
+            resolution_px: part.resolution_px(),
+        };
+        let mut geometry = geometry.clone();
+        let composition = Composition::new(&order)?;
+        if composition.draws_clipped_cracks() {
+            geometry.clip_cracks(scene, request.view.frame);
+        }
         add(&mut plan, &composition, scene, &geometry, &part, None);
     }
     Ok(plan)
@@ -40,7 +56,7 @@ pub(crate) fn add(
     part: &Part,
     layers: Option<u32>,
 ) {
-    let of_frame = of(composition, scene, geometry, &part.request, part.scale, layers);
+    let of_frame = of(composition, scene, geometry, part, layers);
     if part.label.is_empty() {
         *plan = of_frame;
         return;
@@ -58,80 +74,209 @@ fn of(
     composition: &Composition,
     scene: &Scene,
     geometry: &Geometry,
-    request: &Request,
-    scale: u32,
+    part: &Part,
     layers: Option<u32>,
 ) -> Plan {
-    let mut plan = Plan::default();
-    let [width, height] = request.view.resolution_px.map(|n| u64::from(n * scale));
-    let pixels = width * height;
-    plan.passes.push("front".to_owned());
-    let mut add =
-        |name: &str, bytes: u64| plan.buffers.push(Buffer { name: name.to_owned(), bytes });
-    add("frame", uniforms::Frame::min_size().get());
-    add("bodies", Bodies::min_size().get());
-    match &scene.environment {
-        Environment::Uniform(_) => add("uniform_radiance", 16),
-        Environment::Map(map) => {
-            let border = 2 * u64::from(request.filter == Filter::Manual);
-            let edge = u64::from(map.cube.size_px) + border;
-            let name = if border == 2 { "environment_faces" } else { "environment_cube" };
-            add(name, 6 * edge * edge * 16);
-        }
+    let [width, height] = part.resolution_px().map(u64::from);
+    let mut draft = Draft { plan: Plan::default(), pixels: width * height, geometry };
+    draft.numbers();
+    draft.thickness(composition);
+    match &composition.backdrop {
+        Some(backdrop) => draft.backdrop(backdrop, scene, part),
+        None => draft.environment(scene, part.request.filter),
     }
     for output in &composition.outputs {
-        add(output, pixels * 16);
+        draft.buffer(output, draft.pixels * 16);
     }
-    if !geometry.corners.is_empty() {
-        add("corners", (geometry.corners.len() * size_of::<Corner>()) as u64);
-    }
-    for surfaces in [Some(&composition.front), composition.back.as_ref()].into_iter().flatten() {
-        for target in &surfaces.targets {
-            add(target.name, pixels * 4 * u64::from(target.channels));
+    draft.corners(&geometry.bodies);
+    draft.surfaces(&composition.front, draft.pixels, 1);
+    draft.pass("front");
+    match &composition.back {
+        Some(back) => {
+            draft.surfaces(back, draft.pixels, 1);
+            draft.pass("back");
         }
-        add(&format!("{} depth test", surfaces.name), pixels * 4);
-        for _ in 0..geometry.formulas().len() {
-            add("analytic", uniforms::Analytic::min_size().get());
+        None => {
+            let reason = "the method does not read the surface behind";
+            draft.plan.leave_out(Kind::Pass, "back", reason, draft.pixels * (16 + 4));
         }
-    }
-    if composition.back.is_some() {
-        plan.passes.push("back".to_owned());
-    } else {
-        let bytes = pixels * (16 + 4);
-        plan.leave_out(Kind::Pass, "back", "the method does not read the surface behind", bytes);
     }
     if composition.peel.is_some() {
-        for pass in ["clear layers", "collect layers", "sort layers"] {
-            plan.passes.push(pass.to_owned());
-        }
-        let mut add =
-            |name: &str, bytes: u64| plan.buffers.push(Buffer { name: name.to_owned(), bytes });
-        add("slot_counts", 4 * pixels);
-        // A raster pass must have a target, though nothing is written to it.
-        add("no colour", pixels);
-        // Both sides of every analytic body, to be counted and to be collected.
-        for _ in 0..4 * geometry.formulas().len() {
-            add("analytic", uniforms::Analytic::min_size().get());
-        }
-        let suffix = if layers.is_some() { "" } else { " (per layer)" };
-        for name in ["slot_depths", "slot_normals"] {
-            add(&format!("{name}{suffix}"), 4 * pixels * u64::from(layers.unwrap_or(1)));
-        }
+        draft.layers(layers);
     } else {
         let reason = "the method does not look between the first and the last surface";
-        plan.leave_out(Kind::Pass, "layers", reason, 8 * pixels * 2);
+        draft.plan.leave_out(Kind::Pass, "layers", reason, 8 * draft.pixels * 2);
     }
-    plan.passes.push("shade".to_owned());
+    if let Some(interior) = &composition.interior {
+        draft.interior(interior, part.resolution_px());
+    }
+    draft.pass("shade");
+    let Draft { mut plan, pixels, .. } = draft;
     leave_out(&mut plan, composition, scene, geometry, pixels);
-    let opaque =
-        scene.objects.iter().any(|object| !matches!(object.surface, Surface::Dielectric { .. }));
-    if opaque {
+    unsupported(&mut plan, composition, geometry);
+    plan
+}
+
+/// A plan in the making.
+struct Draft<'a> {
+    plan: Plan,
+    pixels: u64,
+    geometry: &'a Geometry,
+}
+
+impl Draft<'_> {
+    fn pass(&mut self, name: &str) {
+        self.plan.passes.push(name.to_owned());
+    }
+
+    fn buffer(&mut self, name: &str, bytes: u64) {
+        self.plan.buffers.push(Buffer { name: name.to_owned(), bytes });
+    }
+
+    fn numbers(&mut self) {
+        self.buffer("frame", uniforms::Frame::min_size().get());
+        self.buffer("bodies", Bodies::min_size().get());
+        if self.geometry.bumps.is_some() {
+            self.buffer("bumps", uniforms::Bumps::min_size().get());
+        }
+    }
+
+    fn thickness(&mut self, composition: &Composition) {
+        if !composition.reads_thickness() {
+            let reason = "the method does not read distances through the body";
+            self.plan.leave_out(Kind::Pass, THICKNESS, reason, 4 * self.pixels);
+        } else if self.geometry.deforms {
+            self.pass(THICKNESS);
+        } else {
+            let reason = "no body deforms: measured once, before the first frame";
+            self.plan.leave_out(Kind::Pass, THICKNESS, reason, 0);
+        }
+    }
+
+    fn environment(&mut self, scene: &Scene, filter: Filter) {
+        match &scene.environment {
+            Environment::Uniform(_) => self.buffer("uniform_radiance", 16),
+            Environment::Map(map) => {
+                let border = 2 * u64::from(filter == Filter::Manual);
+                let edge = u64::from(map.cube.size_px) + border;
+                let name = if border == 2 { "environment_faces" } else { "environment_cube" };
+                self.buffer(name, 6 * edge * edge * 16);
+            }
+        }
+    }
+
+    fn corners(&mut self, parts: &Parts) {
+        if !parts.corners.is_empty() {
+            self.buffer("corners", (parts.corners.len() * size_of::<Corner>()) as u64);
+        }
+    }
+
+    /// Images of a raster pass, its depth test and its analytic bodies.
+    fn surfaces(&mut self, surfaces: &Surfaces, pixels: u64, sides: usize) {
+        for target in &surfaces.targets {
+            self.buffer(target.name, target.bytes(pixels));
+        }
+        self.depth_test(surfaces, pixels);
+        self.analytic(&self.geometry.bodies, sides);
+    }
+
+    fn depth_test(&mut self, surfaces: &Surfaces, pixels: u64) {
+        if surfaces.sides.has_depth() {
+            self.buffer(&format!("{} depth test", surfaces.name), pixels * 4);
+        }
+    }
+
+    fn analytic(&mut self, parts: &Parts, times: usize) {
+        for _ in 0..times * parts.formulas().len() {
+            self.buffer("analytic", uniforms::Analytic::min_size().get());
+        }
+    }
+
+    fn layers(&mut self, layers: Option<u32>) {
+        for pass in ["clear layers", "collect layers", "sort layers"] {
+            self.pass(pass);
+        }
+        self.buffer("slot_counts", 4 * self.pixels);
+        // A raster pass must have a target, though nothing is written to it.
+        self.buffer("no colour", self.pixels);
+        // Both sides of every analytic body, to be counted and to be collected.
+        self.analytic(&self.geometry.bodies, 4);
+        let suffix = if layers.is_some() { "" } else { " (per layer)" };
+        for name in ["slot_depths", "slot_normals"] {
+            let bytes = 4 * self.pixels * u64::from(layers.unwrap_or(1));
+            self.buffer(&format!("{name}{suffix}"), bytes);
+        }
+    }
+
+    fn backdrop(&mut self, backdrop: &Backdrop, scene: &Scene, part: &Part) {
+        self.buffer("surroundings", uniforms::Surroundings::min_size().get());
+        self.environment(scene, part.request.filter);
+        self.corners(&self.geometry.opaque);
+        let edge = u64::from(backdrop.edge_px());
+        self.buffer("drawn cube", 6 * edge * edge * 16);
+        for target in &backdrop.background.targets {
+            self.buffer(target.name, target.bytes(self.pixels));
+        }
+        self.depth_test(&backdrop.background, self.pixels);
+        for _ in FACES {
+            self.buffer("frame of a face", uniforms::Frame::min_size().get());
+            self.depth_test(&backdrop.face, edge * edge);
+        }
+        // Both sides, for the camera and for every face.
+        self.analytic(&self.geometry.opaque, 2 * (1 + FACES.len()));
+        self.pass("background");
+        if self.geometry.changes || !part.is_timed() {
+            FACES.iter().for_each(|face| self.pass(face));
+        } else {
+            let reason = "nothing moves: the cube was drawn before the first frame";
+            self.plan.leave_out(Kind::Pass, "six faces of the cube", reason, 0);
+        }
+    }
+
+    fn interior(&mut self, interior: &Interior, frame_px: [u32; 2]) {
+        let pixels = interior.resolution_px.map(u64::from).iter().product();
+        if interior.resolution_px != frame_px {
+            self.buffer("frame of the inside", uniforms::Frame::min_size().get());
+        }
+        self.buffer("interior", uniforms::Interior::min_size().get());
+        for surfaces in interior.passes() {
+            for target in &surfaces.targets {
+                self.buffer(target.name, target.bytes(pixels));
+            }
+            self.depth_test(surfaces, pixels);
+            if surfaces.sides.has_depth() {
+                self.analytic(&self.geometry.bodies, 1);
+            }
+            self.pass(surfaces.name);
+        }
+        if interior.cracks.is_some() {
+            self.corners(&self.geometry.cracks);
+        }
+        if interior.air.is_some() {
+            self.corners(&self.geometry.air);
+        }
+        if interior.clip.is_none() {
+            let reason = "the frame's own depths, layers or sheets end cracks and air";
+            self.plan.leave_out(Kind::Pass, "clip front, clip back", reason, 2 * 8 * pixels);
+        }
+    }
+}
+
+/// What the scene has and the method does not show.
+fn unsupported(plan: &mut Plan, composition: &Composition, geometry: &Geometry) {
+    let inside = !geometry.cracks.is_empty() || !geometry.air.is_empty();
+    if inside && composition.interior.is_none() {
         plan.unsupported.push(Unsupported {
-            what: "opaque objects".to_owned(),
-            instead: "only the environment is seen through and around the bodies".to_owned(),
+            what: "cracks and enclosed air".to_owned(),
+            instead: "the inside of the body is clear".to_owned(),
         });
     }
-    plan
+    if geometry.media.len() > 1 && composition.peel.is_none() {
+        plan.unsupported.push(Unsupported {
+            what: "several bodies".to_owned(),
+            instead: "light bends at the nearest body and does not meet another".to_owned(),
+        });
+    }
 }
 
 fn leave_out(
@@ -152,7 +297,7 @@ fn leave_out(
     if !geometry.absorbs {
         plan.leave_out(Kind::Code, "absorption", "no medium absorbs", 0);
     }
-    if !geometry.smooth {
+    if !geometry.bodies.smooth {
         plan.leave_out(
             Kind::Buffer,
             "front_geometric",
@@ -160,11 +305,25 @@ fn leave_out(
             pixels * 16,
         );
     }
-    if geometry.corners.is_empty() {
+    if geometry.bodies.corners.is_empty() {
         plan.leave_out(Kind::Buffer, "corners", "every body is analytic", 0);
     }
-    if geometry.formulas().is_empty() {
+    if geometry.bodies.formulas().is_empty() {
         plan.leave_out(Kind::Code, "ray against analytic bodies", "every body is a mesh", 0);
+    }
+    if geometry.opaque.is_empty() {
+        let reason = "nothing opaque stands around the bodies";
+        plan.leave_out(Kind::Pass, "background, six faces of the cube", reason, 20 * pixels);
+    }
+    if geometry.cracks.is_empty() {
+        plan.leave_out(Kind::Pass, "cracks", "no body is cracked", 8 * pixels);
+    }
+    if geometry.air.is_empty() {
+        plan.leave_out(Kind::Pass, "air", "no body encloses air", 4 * pixels);
+    }
+    if geometry.bumps.is_none() {
+        let bytes = uniforms::Bumps::min_size().get();
+        plan.leave_out(Kind::Binding, "bumps", "every surface is smooth", bytes);
     }
     for output in OUTPUTS {
         if !composition.outputs.contains(&output) {

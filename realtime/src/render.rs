@@ -1,6 +1,6 @@
 //! A method's image of a scene.
 
-use crate::composition::{Composition, Filter};
+use crate::composition::{Composition, Filter, Order};
 use crate::frame::{Frame, Viewed};
 use crate::geometry::Geometry;
 use crate::method::{Method, Settings};
@@ -8,6 +8,7 @@ use crate::recorder::{Allocator, Executed, Recorder};
 use crate::{Error, Gpu, plan, readback};
 use scenes::rendering::{Pass, Provenance, Time, TimeSource};
 use scenes::{Camera, LayerName, Layers, Plan, Rendering, Scene, View};
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::time::Instant;
 
@@ -87,7 +88,8 @@ impl Job<'_> {
                 (TIMED, Some(timing)) => self.time(&ran.frame, timing)?,
                 _ => Vec::new(),
             };
-            done.add(part.label, &ran.executed.passes, &timed);
+            let per_frame_ms = ran.thickness_ms.filter(|_| self.geometry.deforms);
+            done.add(part.label, &ran.executed.passes, &timed, per_frame_ms);
             if part.label == TIMED {
                 continue;
             }
@@ -102,39 +104,47 @@ impl Job<'_> {
     }
 
     fn frame(&self, part: &Part) -> Result<Ran<'_>, Error> {
-        let composition = Composition::new(
-            self.method,
-            self.settings,
-            self.scene,
-            &self.camera,
-            self.geometry,
-            &part.request,
-            part.outputs.clone(),
-        )?;
-        let allocator = Allocator::new(self.gpu);
-        let mut measured = None;
-        let geometry = if composition.reads_thickness() {
-            let mut geometry = self.geometry.clone();
-            geometry.measure_thickness();
-            measured.insert(geometry)
-        } else {
-            self.geometry
+        let order = Order {
+            method: self.method,
+            settings: self.settings,
+            scene: self.scene,
+            camera: &self.camera,
+            geometry: self.geometry,
+            request: &part.request,
+            outputs: &part.outputs,
+            resolution_px: part.resolution_px(),
         };
+        let composition = Composition::new(&order)?;
+        let allocator = Allocator::new(self.gpu);
+        let mut geometry = Cow::Borrowed(self.geometry);
+        if composition.draws_clipped_cracks() {
+            geometry.to_mut().clip_cracks(self.scene, self.request.view.frame);
+        }
+        let mut thickness_ms = None;
+        if composition.reads_thickness() {
+            let started = Instant::now();
+            geometry.to_mut().bodies.measure_thickness();
+            thickness_ms = Some(started.elapsed().as_secs_f64() * 1e3);
+        }
         let viewed = Viewed {
-            geometry,
+            geometry: &geometry,
             environment: &self.scene.environment,
             camera: &self.camera,
             eta_outside: self.scene.media[0].eta.get(),
-            resolution_px: self.request.view.resolution_px.map(|n| n * part.scale),
+            resolution_px: part.resolution_px(),
         };
         let frame = Frame::new(self.gpu, &allocator, &composition, &viewed)?;
-        let executed = self.once(&frame, false)?;
-        Ok(Ran { composition, allocator, frame, executed })
+        let mut executed = self.once(&frame, false, true)?;
+        if part.is_timed() {
+            // The frames after the first are what a game draws.
+            executed = self.once(&frame, false, false)?;
+        }
+        Ok(Ran { composition, allocator, frame, executed, thickness_ms })
     }
 
-    fn once(&self, frame: &Frame, timed: bool) -> Result<Executed, Error> {
+    fn once(&self, frame: &Frame, timed: bool, first: bool) -> Result<Executed, Error> {
         let mut recorder = Recorder::new(self.gpu, timed);
-        frame.record(&mut recorder);
+        frame.record(&mut recorder, first);
         recorder.finish()
     }
 
@@ -244,7 +254,7 @@ impl Job<'_> {
         let counters = [
             ("passes", done.count),
             ("bytes", done.bytes),
-            ("triangles", self.geometry.corners.len() as u64 / 3),
+            ("triangles", self.geometry.bodies.corners.len() as u64 / 3),
             ("timed_frames", done.timed_frames),
         ];
         Rendering {
@@ -266,7 +276,7 @@ impl Job<'_> {
 
     fn time(&self, frame: &Frame, timing: Timing) -> Result<Vec<Executed>, Error> {
         for _ in 0..timing.warm_up {
-            self.once(frame, true)?;
+            self.once(frame, true, false)?;
         }
         let started = Instant::now();
         let mut frames = Vec::new();
@@ -274,7 +284,7 @@ impl Job<'_> {
             || (started.elapsed().as_secs_f64() < timing.seconds
                 && frames.len() < timing.max_frames as usize)
         {
-            frames.push(self.once(frame, true)?);
+            frames.push(self.once(frame, true, false)?);
         }
         Ok(frames)
     }
@@ -285,6 +295,8 @@ struct Ran<'a> {
     allocator: Allocator<'a>,
     frame: Frame,
     executed: Executed,
+    /// What it took to find the distances through the bodies, if they are read.
+    thickness_ms: Option<f64>,
 }
 
 /// What all frames of a request did, as the recorder and the allocator saw it.
@@ -297,22 +309,38 @@ struct Done {
 }
 
 impl Done {
-    fn add(&mut self, label: &str, executed: &[String], timed: &[Executed]) {
+    /// `thickness_ms`: what the CPU did before the frame, and would before every
+    /// other.
+    fn add(
+        &mut self,
+        label: &str,
+        executed: &[String],
+        timed: &[Executed],
+        thickness_ms: Option<f64>,
+    ) {
         self.count += executed.len() as u64;
         self.timed_frames += timed.len() as u64;
+        if let Some(milliseconds) = thickness_ms {
+            self.count += 1;
+            let times = vec![Time { source: TimeSource::Cpu, milliseconds }];
+            self.passes.push(Pass { name: format!("{label}{THICKNESS}"), times });
+        }
         let passes = executed.iter().enumerate();
         self.passes.extend(passes.map(|(index, name)| Pass {
             name: format!("{label}{name}"),
             times: timestamp(timed, index),
         }));
         if !timed.is_empty() {
-            let milliseconds = median(timed.iter().map(|frame| frame.wall_ms));
+            let frame_ms = median(timed.iter().map(|frame| frame.wall_ms));
+            let milliseconds = frame_ms + thickness_ms.unwrap_or(0.0);
             let times = vec![Time { source: TimeSource::Wall, milliseconds }];
             self.passes.push(Pass { name: format!("{label}{WHOLE_FRAME}"), times });
         }
     }
 }
 
+/// Finding the distances along the normals, on the CPU.
+pub(crate) const THICKNESS: &str = "distances along normals";
 /// Label of the frame that is timed, and name of the entry with its wall time.
 const TIMED: &str = "timed: ";
 const WHOLE_FRAME: &str = "frame";
@@ -330,6 +358,15 @@ pub(crate) struct Part {
 }
 
 impl Part {
+    pub(crate) fn is_timed(&self) -> bool {
+        self.label == TIMED
+    }
+
+    /// Pixels of its images.
+    pub(crate) fn resolution_px(&self) -> [u32; 2] {
+        self.request.view.resolution_px.map(|n| n * self.scale)
+    }
+
     /// Samplers read 32-bit floats only where the adapter can; elsewhere the
     /// manual filter is what can be timed.
     fn on(mut self, gpu: &Gpu) -> Self {

@@ -5,6 +5,7 @@ use crate::{Error, Gpu};
 use std::collections::BTreeMap;
 
 /// Something that can be bound.
+#[derive(Clone)]
 pub(crate) enum Resource {
     Texture(wgpu::Texture, wgpu::TextureView),
     Buffer(wgpu::Buffer),
@@ -32,6 +33,24 @@ impl Resources {
             ..Default::default()
         });
         self.0.insert(name.to_owned(), Resource::Texture(texture, view));
+    }
+
+    /// One layer of an array of images, to draw into.
+    pub(crate) fn layer(&mut self, name: &str, texture: &wgpu::Texture, layer: u32) {
+        let view = texture.create_view(&wgpu::TextureViewDescriptor {
+            dimension: Some(wgpu::TextureViewDimension::D2),
+            base_array_layer: layer,
+            array_layer_count: Some(1),
+            ..Default::default()
+        });
+        self.0.insert(name.to_owned(), Resource::Texture(texture.clone(), view));
+    }
+
+    /// Lets others use what is called `name`, if it is there.
+    pub(crate) fn share(&self, with: &mut Self, name: &str) {
+        if let Some(resource) = self.0.get(name) {
+            with.0.insert(name.to_owned(), resource.clone());
+        }
     }
 
     pub(crate) fn buffer(&mut self, name: &str, buffer: wgpu::Buffer) {

@@ -1,23 +1,23 @@
 //! The environment's texels on the GPU: those of the scene's cube, nothing else.
 
-use crate::composition::Composition;
 use crate::recorder::Allocator;
 use crate::resources::Resources;
+use crate::wgsl::Shader;
 use crate::{Error, Gpu};
 use glam::DVec3;
 use scenes::Environment;
 use wgpu::TextureUsages;
 
-/// Uploads what the shading pass reads: one number, the bordered faces, or a
+/// Uploads what a shader reads: one number, the bordered faces, or a
 /// cube for the hardware's sampler.
 pub(crate) fn upload_environment(
     gpu: &Gpu,
     allocator: &Allocator<'_>,
-    composition: &Composition,
+    (shader, entry_point): (&Shader, &str),
     environment: &Environment,
     resources: &mut Resources,
 ) -> Result<(), Error> {
-    let shade = |name| composition.shade.uses(&["shade"], name);
+    let reads = |name| shader.uses(&[entry_point], name);
     match environment {
         Environment::Uniform(radiance) => {
             let DVec3 { x, y, z } = *radiance;
@@ -30,7 +30,7 @@ pub(crate) fn upload_environment(
             resources.buffer("uniform_radiance", buffer);
         }
         Environment::Map(map) => {
-            let border = u32::from(shade("environment_faces"));
+            let border = u32::from(reads("environment_faces"));
             let name = if border == 1 { "environment_faces" } else { "environment_cube" };
             let edge = map.cube.size_px + 2 * border;
             let usage = TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST;
@@ -58,15 +58,18 @@ pub(crate) fn upload_environment(
                 wgpu::TextureViewDimension::Cube
             };
             resources.texture_as(name, texture, dimension);
-            let linear = wgpu::SamplerDescriptor {
-                mag_filter: wgpu::FilterMode::Linear,
-                min_filter: wgpu::FilterMode::Linear,
-                ..Default::default()
-            };
-            resources.sampler("environment_linear", gpu.device.create_sampler(&linear));
+            resources.sampler("environment_linear", linear_sampler(gpu));
         }
     }
     Ok(())
+}
+
+pub(crate) fn linear_sampler(gpu: &Gpu) -> wgpu::Sampler {
+    gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+        mag_filter: wgpu::FilterMode::Linear,
+        min_filter: wgpu::FilterMode::Linear,
+        ..Default::default()
+    })
 }
 
 fn without_border(cube: &scenes::Cube) -> Vec<[f32; 4]> {

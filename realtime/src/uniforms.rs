@@ -3,7 +3,7 @@
 
 use encase::{ShaderType, UniformBuffer};
 use glam::{DAffine3, DMat4, DVec3, Mat4, Vec2, Vec3, Vec4};
-use scenes::Camera;
+use scenes::{Camera, Surface};
 
 /// Most bodies a scene may show.
 pub(crate) const MAX_BODIES: usize = 16;
@@ -47,6 +47,114 @@ pub(crate) struct Analytic {
     pub(crate) far_side: u32,
 }
 
+/// Most lights a scene may have.
+pub(crate) const MAX_LIGHTS: usize = 16;
+
+/// Mirrors `Bump` in bump.wgsl.
+#[derive(Clone, Copy, Debug, Default, ShaderType)]
+pub(crate) struct Bump {
+    pub(crate) object_from_lc: Mat4,
+    pub(crate) lc_from_object: Mat4,
+    pub(crate) amplitude: f32,
+    pub(crate) frequency_per_m: f32,
+    pub(crate) seed: u32,
+}
+
+/// Mirrors `array<Bump, 16>` in bump.wgsl.
+#[derive(Clone, Debug, ShaderType)]
+pub(crate) struct Bumps {
+    pub(crate) list: [Bump; MAX_BODIES],
+}
+
+/// Mirrors `Paint` in opaque.wgsl.
+#[derive(Clone, Copy, Debug, Default, ShaderType)]
+pub(crate) struct Paint {
+    pub(crate) object_from_lc: Mat4,
+    pub(crate) first: Vec3,
+    pub(crate) size_m: f32,
+    pub(crate) second: Vec3,
+    pub(crate) lit: u32,
+}
+
+/// Mirrors `Light` in opaque.wgsl.
+#[derive(Clone, Copy, Debug, Default, ShaderType)]
+pub(crate) struct Light {
+    pub(crate) place: Vec4,
+    pub(crate) colour: Vec3,
+}
+
+/// Mirrors `Surroundings` in opaque.wgsl.
+#[derive(Clone, Debug, ShaderType)]
+pub(crate) struct Surroundings {
+    pub(crate) paints: [Paint; MAX_BODIES],
+    pub(crate) lights: [Light; MAX_LIGHTS],
+    pub(crate) light_count: u32,
+}
+
+/// Mirrors `Interior` in interior.wgsl.
+#[derive(Clone, Copy, Debug, ShaderType)]
+pub(crate) struct Interior {
+    pub(crate) towards_light_ws: Vec3,
+    pub(crate) size_m: f32,
+}
+
+impl Bump {
+    pub(crate) fn new(
+        bump: &scenes::scene::Bump,
+        world_from_object: &DAffine3,
+        centre: DVec3,
+    ) -> Self {
+        let object_from_lc = object_from_lc(world_from_object, centre);
+        Self {
+            object_from_lc: object_from_lc.as_mat4(),
+            lc_from_object: object_from_lc.inverse().as_mat4(),
+            amplitude: bump.amplitude as f32,
+            frequency_per_m: bump.frequency_per_m as f32,
+            seed: scenes::noise::seed32(bump.seed),
+        }
+    }
+}
+
+impl Paint {
+    pub(crate) fn new(surface: &Surface, world_from_object: &DAffine3, centre: DVec3) -> Self {
+        let (paint, lit) = match surface {
+            Surface::Unlit { radiance } => (radiance, 0),
+            Surface::Lambert { albedo } => (albedo, 1),
+            Surface::Dielectric { .. } => return Self::default(),
+        };
+        let ([first, second], size_m) = match paint {
+            scenes::scene::Paint::Constant(colour) => ([*colour; 2], 1.0),
+            scenes::scene::Paint::Checker { colours, size_m } => (*colours, *size_m),
+        };
+        Self {
+            object_from_lc: object_from_lc(world_from_object, centre).as_mat4(),
+            first: first.as_vec3(),
+            size_m: size_m as f32,
+            second: second.as_vec3(),
+            lit,
+        }
+    }
+}
+
+impl Light {
+    /// `place`: position in local space and 1, or direction of travel and 0.
+    pub(crate) fn new(light: &scenes::scene::Light, centre: DVec3) -> Self {
+        match light {
+            scenes::scene::Light::Point { position_m, intensity } => Self {
+                place: (*position_m - centre).as_vec3().extend(1.0),
+                colour: intensity.as_vec3(),
+            },
+            scenes::scene::Light::Directional { direction, irradiance } => {
+                Self { place: direction.as_vec3().extend(0.0), colour: irradiance.as_vec3() }
+            }
+        }
+    }
+}
+
+fn object_from_lc(world_from_object: &DAffine3, centre: DVec3) -> DMat4 {
+    DMat4::from((DAffine3::from_translation(-centre) * *world_from_object).inverse())
+}
+
 /// The bytes of a uniform.
 pub(crate) fn bytes_of<T: ShaderType + encase::internal::WriteInto>(value: &T) -> Vec<u8> {
     let mut buffer = UniformBuffer::new(Vec::new());
@@ -83,6 +191,46 @@ impl Frame {
             eta_outside: eta_outside as f32,
             radius_m: radius_m as f32,
             layer_capacity: 0,
+        }
+    }
+}
+
+impl Frame {
+    /// One face of a cube about a point (local space), seen at a right angle
+    /// and `margin` texels more on every side. Rows run down the face and
+    /// columns to its right, as WebGPU numbers them: a mirrored camera.
+    pub(crate) fn of_cube_face(
+        &self,
+        face: usize,
+        eye_lc: Vec3,
+        size_px: u32,
+        margin: u32,
+    ) -> Self {
+        const FACES: [[Vec3; 3]; 6] = [
+            [Vec3::NEG_Z, Vec3::Y, Vec3::X],
+            [Vec3::Z, Vec3::Y, Vec3::NEG_X],
+            [Vec3::X, Vec3::NEG_Z, Vec3::Y],
+            [Vec3::X, Vec3::Z, Vec3::NEG_Y],
+            [Vec3::X, Vec3::Y, Vec3::Z],
+            [Vec3::NEG_X, Vec3::Y, Vec3::NEG_Z],
+        ];
+        let [right, up, forward] = FACES[face];
+        let edge_px = (size_px + 2 * margin) as f32;
+        let extent = edge_px / size_px as f32;
+        let (near_m, far_m) = (1e-3 * self.radius_m, 4.0 * self.radius_m);
+        let depth = far_m / (far_m - near_m);
+        let view = |axis: Vec3| axis.extend(-axis.dot(eye_lc));
+        let z = view(forward) * depth - Vec4::W * near_m * depth;
+        let rows = [view(right) / extent, view(up) / extent, z, view(forward)];
+        Self {
+            clip_from_lc: Mat4::from_cols_array_2d(&rows.map(|row| row.to_array())).transpose(),
+            eye_lc,
+            right_ws: right,
+            up_ws: up,
+            forward_ws: forward,
+            half_extent: Vec2::splat(extent),
+            resolution_px: Vec2::splat(edge_px),
+            ..self.clone()
         }
     }
 }

@@ -13,7 +13,7 @@ fn store_interface(v: Varyings) -> vec4f {
     if (slot < frame.layer_capacity) {
         let body = u32(v.body + 0.5) - 1u;
         let packed = pack_interface(
-            normalize(v.normal_ws), dot(v_ws, v.geometric_ws) < 0.0, bodies[body].solid);
+            surface_normal_ws(v), dot(v_ws, v.geometric_ws) < 0.0, bodies[body].solid);
         textureStore(slot_depths, pixel, slot, vec4u(bitcast<u32>(depth_of_m(v.p_lc)), 0u, 0u, 0u));
         textureStore(slot_normals, pixel, slot, vec4u(packed, 0u, 0u, 0u));
     }

@@ -19,13 +19,13 @@ fn shade(@builtin(global_invocation_id) id: vec3u) {
         return;
     }
     let v_ws = view_direction_ws(pixel_centre_px(pixel));
-    if (body_number(pixel) == 0u) {
-        put_radiance(pixel, vec4f(environment(v_ws), 0.0));
+    if (body_number(pixel) == 0u || hidden(pixel)) {
+        put_radiance(pixel, background(pixel, v_ws));
         return;
     }
     let surface = front_surface(pixel, v_ws);
     let traced = trace(pixel, v_ws, surface);
-    put_radiance(pixel, vec4f(composite(v_ws, surface, traced), 1.0));
+    put_radiance(pixel, vec4f(composite(pixel, v_ws, surface, traced), 1.0));
     put_exit(pixel, vec4f(traced.exit_ws, 1.0));
     put_first(pixel, vec4f(traced.first_ws, 1.0));
     put_hit2(pixel, vec4f(traced.hit2_lc, 1.0));
@@ -33,8 +33,9 @@ fn shade(@builtin(global_invocation_id) id: vec3u) {
 }
 
 // Reflection and refraction mixed, the refracted part dimmed on its way.
-fn composite(v_ws: vec3f, surface: Surface, traced: Trace) -> vec3f {
+fn composite(pixel: vec2i, v_ws: vec3f, surface: Surface, traced: Trace) -> vec3f {
     let share = reflected_share(v_ws, surface);
-    let through = environment(traced.exit_ws) * transmitted(traced.path_m, surface.body);
+    let beyond = environment(traced.exit_ws) * transmitted(traced.path_m, surface.body);
+    let through = with_cracks(pixel, with_air(pixel, beyond));
     return mix(through, reflected_light(v_ws, surface, share), share);
 }

@@ -55,6 +55,57 @@ fn scenes() -> Vec<Scene> {
     scenes
 }
 
+/// Cracked, bumpy, bubbly ice that deforms, before opaque things that move.
+fn everything() -> Scene {
+    use scenes::scene::{Air, Bump, Crack, Light, Motion, Paint, Wave};
+    let camera = perspective(DVec3::new(0.4, 0.8, 3.5), [24, 16]);
+    let mut scene = scene_of(tetrahedron(), 1.31, camera);
+    scene.environment = environments()[1].clone();
+    scene.media[1].absorption_per_m = DVec3::new(0.5, 0.1, 0.0);
+    let ice = &mut scene.objects[0];
+    ice.bump = Some(Bump { amplitude: 0.1, frequency_per_m: 5.0, seed: 1 });
+    ice.crack = Some(Crack { count: 2, grid: 8, seed: 2 });
+    ice.air = Some(Air { planes: 3, bubbles: 0, bubble_radius: 0.01, seed: 3 });
+    ice.deform = Some(Wave {
+        amplitude_m: 0.02,
+        wavelength_m: 1.0,
+        travel: DVec3::X,
+        direction: DVec3::Y,
+        period_s: 1.0,
+    });
+    let white = || Paint::Constant(DVec3::ONE);
+    let checker = Paint::Checker { colours: [DVec3::ZERO, DVec3::ONE], size_m: 0.3 };
+    let mut ball = object(Shape::Sphere { radius_m: 0.3 });
+    ball.surface = Surface::Unlit { radiance: white() };
+    ball.world_from_object = DAffine3::from_translation(DVec3::new(-1.0, 0.3, -1.0));
+    ball.motion = Some(Motion::Spin { axis: DVec3::Y, deg_per_s: 10.0 });
+    let mut floor = object(Shape::Box { half_extent_m: DVec3::new(2.0, 0.1, 2.0) });
+    floor.surface = Surface::Lambert { albedo: checker };
+    floor.world_from_object = DAffine3::from_translation(DVec3::new(0.0, -1.0, 0.0));
+    scene.objects.extend([ball, floor]);
+    let (direction, irradiance) = (DVec3::NEG_Y, DVec3::ONE);
+    scene.lights = vec![Light::Directional { direction, irradiance }];
+    scene
+}
+
+/// Each feature of [`everything`] taken away in turn.
+fn with_less() -> Vec<Scene> {
+    let changes: [fn(&mut Scene); 6] = [
+        |scene| scene.objects[0].bump = None,
+        |scene| scene.objects[0].crack = None,
+        |scene| scene.objects[0].air = None,
+        |scene| scene.objects[0].deform = None,
+        |scene| scene.objects.truncate(1),
+        |scene| scene.objects[1].motion = None,
+    ];
+    let less = |change: fn(&mut Scene)| {
+        let mut scene = everything();
+        change(&mut scene);
+        scene
+    };
+    changes.into_iter().map(less).collect()
+}
+
 fn many_layers() -> Vec<LayerName> {
     let buffer = |name: &str| LayerName::Buffer(name.into());
     vec![
@@ -88,8 +139,14 @@ fn kept(plan: &Plan, rendering: &Rendering) -> bool {
 fn every_method_executes_its_plan() {
     let timing = Timing { warm_up: 0, seconds: 0.0, max_frames: 1 };
     // The projection changes no pass and no byte: one of the two is enough.
-    for scene in scenes().iter().filter(|scene| scene.camera.eye.x != 0.0) {
-        for method in METHODS {
+    let plain = scenes().into_iter().filter(|scene| scene.camera.eye.x != 0.0);
+    let cases = plain.map(|scene| (scene, METHODS.iter().collect::<Vec<_>>()));
+    let inner = |id: &str| Method::find(id).unwrap();
+    let rich = with_less().into_iter().chain([everything()]);
+    let rich = rich.map(|scene| (scene, ["blended", "two-interface", "multi"].map(inner).to_vec()));
+    for (scene, methods) in cases.chain(rich) {
+        let scene = &scene;
+        for method in methods {
             for positions_per_axis in [1, 2] {
                 let mut request = request(scene, method.id, &many_layers());
                 request.view.positions_per_axis = positions_per_axis;
@@ -125,11 +182,46 @@ fn a_pass_or_a_byte_too_many_is_noticed() {
     assert!(!kept(&smaller, &rendering));
 }
 
+/// What a feature needs is there with it and gone without it.
+#[test]
+fn a_feature_that_is_taken_away_takes_its_passes_and_buffers_with_it() {
+    let names = |scene: &Scene| {
+        let mut request = request(scene, "blended", &[LayerName::Radiance]);
+        request.timing = Some(Timing { warm_up: 0, seconds: 0.0, max_frames: 1 });
+        let plan = realtime::plan(scene, &request).unwrap();
+        let buffers = plan.buffers.iter().map(|buffer| buffer.name.clone());
+        plan.passes.into_iter().chain(buffers).collect::<Vec<_>>()
+    };
+    let all = names(&everything());
+    let needs: [&[&str]; 6] = [
+        &["bumps"],
+        &["cracks"],
+        &["air"],
+        &[],
+        &["background", "cube +X", "surroundings", "drawn cube"],
+        &[],
+    ];
+    for (scene, needed) in with_less().iter().zip(needs) {
+        let left = names(scene);
+        for name in needed {
+            assert!(all.iter().any(|n| n == name), "{name} should be there: {all:?}");
+            assert!(left.iter().all(|n| n != name), "{name} should be gone: {left:?}");
+        }
+    }
+    // What does not move is drawn into the cube once, before the timed frames.
+    let mut still = everything();
+    still.objects[0].deform = None;
+    still.objects[1].motion = None;
+    let left = names(&still);
+    assert!(left.iter().any(|n| n == "cube +X") && left.iter().all(|n| n != "timed: cube +X"));
+    assert!(all.iter().any(|n| n == "timed: cube +X"));
+}
+
 /// Every word of every parameter, for every kind of scene, compiles.
 #[test]
 fn every_combination_of_pieces_compiles() {
     let mut combinations = 0;
-    for mut scene in scenes() {
+    for mut scene in scenes().into_iter().chain([everything()]) {
         scene.media[1].absorption_per_m = DVec3::ONE;
         for method in METHODS {
             for parameters in settings(method) {

@@ -1,0 +1,5 @@
+// Surfaces without bumps.
+
+fn surface_normal_ws(v: Varyings) -> vec3f {
+    return normalize(v.normal_ws);
+}
