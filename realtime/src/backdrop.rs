@@ -6,6 +6,9 @@
 //! The cube shows what is seen from the middle of the bodies, without them. It
 //! has the environment's own texels where nothing stands in front.
 
+#[cfg(test)]
+mod tests;
+
 use crate::composition::{Order, camera_piece, piece};
 use crate::frame::{self, Viewed};
 use crate::pipelines::{DrawnSurfaces, Maker};

@@ -12,7 +12,8 @@ pub(crate) fn buffer_bytes(gpu: &Gpu, source: &wgpu::Buffer, bytes: u64) -> Resu
     map(gpu, &staging)
 }
 
-/// Texels of a float texture, `channels` f32 per texel, rows from the top.
+/// Texels of a float texture, `channels` f32 per texel, rows from the top, one
+/// layer after the other.
 pub(crate) fn texture_values(
     gpu: &Gpu,
     texture: &wgpu::Texture,
@@ -21,7 +22,8 @@ pub(crate) fn texture_values(
     let [width, height] = [texture.width(), texture.height()];
     let row_bytes = 4 * channels * width;
     let padded = row_bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-    let staging = staging(gpu, u64::from(padded) * u64::from(height));
+    let layers = texture.depth_or_array_layers();
+    let staging = staging(gpu, u64::from(padded) * u64::from(height) * u64::from(layers));
     let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     let layout = wgpu::TexelCopyBufferLayout {
         offset: 0,
@@ -31,7 +33,7 @@ pub(crate) fn texture_values(
     encoder.copy_texture_to_buffer(
         texture.as_image_copy(),
         wgpu::TexelCopyBufferInfo { buffer: &staging, layout },
-        wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+        wgpu::Extent3d { width, height, depth_or_array_layers: layers },
     );
     gpu.queue.submit([encoder.finish()]);
     let bytes = map(gpu, &staging)?;

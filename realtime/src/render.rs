@@ -214,7 +214,10 @@ impl Job<'_> {
         layers: &mut Layers,
     ) -> Result<(), Error> {
         for name in buffers(request) {
-            let values = if name == "thickness" {
+            let nothing_drawn = name == "crack_mask" && ran.composition.interior.is_none();
+            let values = if nothing_drawn {
+                vec![0.0; layers.pixels()]
+            } else if name == "thickness" {
                 let (front, back) = (self.read(ran, "front_depth")?, self.read(ran, "back_depth")?);
                 back.iter().zip(&front).map(|(b, f)| f64::from((b - f).max(0.0))).collect()
             } else {
@@ -442,8 +445,15 @@ fn check_size(request: &Request) -> Result<(), Error> {
 }
 
 /// Intermediate buffers that can be asked for as layers.
-pub(crate) const BUFFERS: [&str; 6] =
-    ["front_normal", "front_depth", "front_geometric", "back_normal", "back_depth", "thickness"];
+pub(crate) const BUFFERS: [&str; 7] = [
+    "front_normal",
+    "front_depth",
+    "front_geometric",
+    "back_normal",
+    "back_depth",
+    "thickness",
+    "crack_mask",
+];
 
 /// The scene's camera at the resolution that was asked for.
 pub(crate) fn camera(scene: &Scene, request: &Request) -> Camera {

@@ -58,8 +58,11 @@ impl<'a> Exact<'a> {
         layers: Vec<LayerName>,
     ) -> Self {
         let view = View { resolution_px, positions_per_axis, frame: 0, layers };
-        let request =
-            Request { estimator: Estimator::Tree { cut }, ..Request::new(view, Level::R1) };
+        // Opaque surroundings count where there are any.
+        let bodies = scene.objects.iter();
+        let opaque = bodies.filter(|object| scene.medium_of(object).is_none()).count() > 0;
+        let level = if opaque { Level::R2 } else { Level::R1 };
+        let request = Request { estimator: Estimator::Tree { cut }, ..Request::new(view, level) };
         Self { scene, request }
     }
 
