@@ -44,6 +44,7 @@ pub(crate) struct Peel {
 
 /// A frame, as far as it can be known without a GPU.
 pub(crate) struct Composition {
+    pub(crate) method: &'static Method,
     pub(crate) shade: Shader,
     pub(crate) outputs: Vec<&'static str>,
     pub(crate) backdrop: Option<Backdrop>,
@@ -65,7 +66,7 @@ pub enum Filter {
 /// What is to be composed.
 #[derive(Clone, Copy)]
 pub(crate) struct Order<'a> {
-    pub(crate) method: &'a Method,
+    pub(crate) method: &'static Method,
     pub(crate) settings: &'a Settings,
     pub(crate) scene: &'a Scene,
     pub(crate) camera: &'a Camera,
@@ -96,6 +97,7 @@ impl Composition {
         let peels = shade.uses(&["shade"], "slot_counts")
             || interior.as_ref().is_some_and(|interior| interior.reads("slot_counts"));
         Ok(Self {
+            method: order.method,
             backdrop: Backdrop::new(order)?,
             front: surfaces("front", front, Sides::Front)?,
             back: back.transpose()?,
@@ -178,12 +180,17 @@ fn shade_pieces(order: &Order<'_>) -> Result<Vec<Piece>, Error> {
     } else {
         piece!("geometric_same.wgsl")
     });
+    pieces.extend(if geometry.disperses && order.method.traces_colours {
+        [piece!("eta_dispersed.wgsl"), piece!("colours_apart.wgsl")]
+    } else {
+        [piece!("eta_single.wgsl"), piece!("colours_together.wgsl")]
+    });
     pieces.push(piece!("first_event.wgsl"));
     pieces.push(if geometry.absorbs { piece!("absorb.wgsl") } else { piece!("absorb_none.wgsl") });
     pieces.extend(Interior::shown(order));
     pieces.extend(reflection(settings));
     pieces.push(outputs_piece(order.outputs));
-    pieces.extend((order.method.pieces)(settings)?);
+    pieces.extend(order.method.pieces(settings)?);
     Ok(pieces)
 }
 
@@ -219,10 +226,10 @@ fn reflection(settings: &Settings) -> Vec<Piece> {
         None | Some("none") => return vec![piece!("reflect_none.wgsl")],
         Some("eq4") => "fresnel_cubed(v_ws, surface.normal_ws)",
         Some("schlick") => {
-            "fresnel_schlick(v_ws, surface.normal_ws, frame.eta_outside, bodies[surface.body].eta)"
+            "fresnel_schlick(v_ws, surface.normal_ws, frame.eta_outside, eta_body(surface.body))"
         }
         Some(_) => {
-            "fresnel_exact(v_ws, surface.normal_ws, frame.eta_outside, bodies[surface.body].eta)"
+            "fresnel_exact(v_ws, surface.normal_ws, frame.eta_outside, eta_body(surface.body))"
         }
     };
     let text = format!(

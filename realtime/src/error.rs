@@ -33,6 +33,14 @@ pub enum Error {
         /// Ids of all methods.
         available: String,
     },
+    /// A user's file that holds no method.
+    #[error("{path}: {why}")]
+    MethodFile {
+        /// As given.
+        path: String,
+        /// What is wrong and what to write instead.
+        why: String,
+    },
     /// A parameter that the method does not have, or a value out of its range.
     #[error("method {method}: {what}")]
     Parameter {

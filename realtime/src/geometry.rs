@@ -35,6 +35,8 @@ pub(crate) struct Geometry {
     pub(crate) middle_lc: Vec3,
     /// Some body absorbs.
     pub(crate) absorbs: bool,
+    /// Some body's index depends on the colour.
+    pub(crate) disperses: bool,
     /// Bodies differ in medium or priority.
     pub(crate) nested: bool,
     /// Something moves or deforms from frame to frame.
@@ -78,6 +80,7 @@ impl Geometry {
             radius_m: radius_m.max(f64::MIN_POSITIVE),
             middle_lc: middle(&solids, time_s, centre),
             absorbs: false,
+            disperses: false,
             nested: false,
             changes: scene.objects.iter().any(|object| moves(&object)),
             deforms: solids.iter().any(|object| object.deform.is_some()),
@@ -100,7 +103,11 @@ impl Geometry {
             eta: medium.eta.get() as f32,
             solid,
             absorption_per_m: medium.absorption_per_m.as_vec3(),
+            eta_channels: Vec3::from_array(
+                scenes::medium::RGB_WAVELENGTH_UM.map(|um| medium.eta_at(um) as f32),
+            ),
         });
+        self.disperses |= medium.is_dispersive();
         let number = self.media.len() as u32;
         let shape = object.shape_at(time_s);
         let world_from_object = object.world_from_object_at(time_s);

@@ -113,7 +113,7 @@ fn of(
     draft.pass("shade");
     let Draft { mut plan, pixels, .. } = draft;
     leave_out(&mut plan, composition, scene, geometry, pixels);
-    unsupported(&mut plan, composition, geometry);
+    unsupported(&mut plan, composition.method, composition, geometry);
     plan
 }
 
@@ -263,12 +263,18 @@ impl Draft<'_> {
 }
 
 /// What the scene has and the method does not show.
-fn unsupported(plan: &mut Plan, composition: &Composition, geometry: &Geometry) {
+fn unsupported(plan: &mut Plan, method: &Method, composition: &Composition, geometry: &Geometry) {
     let inside = !geometry.cracks.is_empty() || !geometry.air.is_empty();
     if inside && composition.interior.is_none() {
         plan.unsupported.push(Unsupported {
             what: "cracks and enclosed air".to_owned(),
             instead: "the inside of the body is clear".to_owned(),
+        });
+    }
+    if geometry.disperses && !method.traces_colours {
+        plan.unsupported.push(Unsupported {
+            what: "dispersion".to_owned(),
+            instead: "light of all colours takes the way of the d line".to_owned(),
         });
     }
     if geometry.media.len() > 1 && composition.peel.is_none() {
@@ -296,6 +302,9 @@ fn leave_out(
     }
     if !geometry.absorbs {
         plan.leave_out(Kind::Code, "absorption", "no medium absorbs", 0);
+    }
+    if !geometry.disperses {
+        plan.leave_out(Kind::Code, "traces of red and blue", "no medium disperses", 0);
     }
     if !geometry.bodies.smooth {
         plan.leave_out(

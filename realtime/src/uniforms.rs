@@ -29,6 +29,7 @@ pub(crate) struct Body {
     pub(crate) eta: f32,
     pub(crate) solid: u32,
     pub(crate) absorption_per_m: Vec3,
+    pub(crate) eta_channels: Vec3,
 }
 
 /// Mirrors `array<Body, 16>` in frame.wgsl.

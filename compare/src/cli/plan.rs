@@ -13,7 +13,7 @@ use serde::Serialize;
 pub(super) struct Args {
     /// Built-in name (see `snell scenes`) or scene file
     scene: String,
-    /// Method to plan
+    /// Method to plan, or FILE.wgsl with one of your own
     #[arg(short, long, value_name = "METHOD", group = "renderer")]
     method: Option<String>,
     /// Parameter of the method, such as a=0.33; repeat for several

@@ -12,7 +12,7 @@ use realtime::{Filter, Request, Timing};
 pub(super) struct Args {
     /// Built-in name (see `snell scenes`) or scene file
     scene: String,
-    /// Approximation (see `snell methods`)
+    /// Approximation (see `snell methods`), or FILE.wgsl with one of your own
     #[arg(short, long, value_name = "METHOD")]
     method: String,
     /// Parameter of the method, such as a=0.33; repeat for several

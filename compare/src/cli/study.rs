@@ -19,6 +19,9 @@ pub(super) struct Args {
     /// Approximation to judge; repeat for several [default: all]
     #[arg(short, long = "method", value_name = "METHOD")]
     methods: Vec<String>,
+    /// Judge the method in this file of WGSL too; repeat for several
+    #[arg(long = "method-file", value_name = "FILE.wgsl", value_parser = method_file)]
+    method_files: Vec<String>,
     /// Judge this closed mesh instead of a scene, with the camera fitted to it
     #[arg(long, value_name = "FILE.obj", conflicts_with = "scenes")]
     obj: Option<PathBuf>,
@@ -58,7 +61,7 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args, output: Output) -> Result<Status, Error> {
     let mut left_out = Vec::new();
     let scenes = scenes(args, &mut left_out)?;
-    let methods = methods(&args.methods)?;
+    let methods = methods(&args.methods, &args.method_files)?;
     let gpu = args.adapter.open()?;
     let store = Store::new(args.cache.clone().unwrap_or_else(cache::default_folder));
     let spec = Spec {
@@ -112,12 +115,19 @@ fn scenes(args: &Args, left_out: &mut Vec<NotDone>) -> Result<Vec<Scene>, Error>
     Ok(list)
 }
 
-/// Ids of the methods asked for, or of all.
-fn methods(asked: &[String]) -> Result<Vec<String>, Error> {
-    if asked.is_empty() {
-        return Ok(realtime::METHODS.iter().map(|method| method.id.to_owned()).collect());
+/// A method's file is known by its name's end.
+fn method_file(text: &str) -> Result<String, String> {
+    match text.ends_with(".wgsl") {
+        true => Ok(text.to_owned()),
+        false => Err("a method's file is WGSL and is called NAME.wgsl".to_owned()),
     }
-    asked.iter().map(|name| Ok(Method::find(name)?.id.to_owned())).collect()
+}
+
+/// Ids of the methods asked for, or of all, and of those in files.
+fn methods(asked: &[String], files: &[String]) -> Result<Vec<String>, Error> {
+    let all: Vec<String> = realtime::METHODS.iter().map(|method| method.id.to_owned()).collect();
+    let asked = if asked.is_empty() { &all } else { asked };
+    asked.iter().chain(files).map(|name| Ok(Method::find(name)?.id.to_owned())).collect()
 }
 
 /// The command of this process as it can be typed again.

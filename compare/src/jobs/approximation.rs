@@ -2,7 +2,7 @@
 
 use super::{Id, Made};
 use crate::Error;
-use realtime::{Filter, Gpu, Request, Timing};
+use realtime::{Filter, Gpu, Method, Request, Timing};
 use scenes::{LayerName, Scene, View};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -23,6 +23,8 @@ struct Description<'a> {
     sources: &'a str,
     scene: &'a str,
     request: String,
+    /// Of a method from a user's file.
+    method: Option<&'a str>,
     adapter: &'a str,
     driver: &'a str,
 }
@@ -54,6 +56,7 @@ impl<'a> Approximation<'a> {
             sources: env!("SNELL_REALTIME_SOURCES"),
             scene: &self.scene.source.sha256,
             request: format!("{:?}", self.request),
+            method: Method::find(&self.request.method).ok().and_then(Method::file_text),
             adapter: &adapter.name,
             driver: &adapter.driver,
         })

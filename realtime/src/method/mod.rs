@@ -3,6 +3,7 @@
 //! A method is one WGSL file and one row here. Which passes and buffers it
 //! needs is not written down anywhere: it is read from its WGSL.
 
+mod file;
 mod registry;
 mod settings;
 
@@ -26,7 +27,17 @@ pub struct Method {
     pub bibtex: &'static str,
     /// What can be set.
     pub parameters: &'static [Parameter],
-    pub(crate) pieces: fn(&Settings) -> Result<Vec<Piece>, Error>,
+    /// Traces red and blue light on ways of their own where a medium disperses.
+    pub traces_colours: bool,
+    pub(crate) pieces: Pieces,
+}
+
+/// Where a method's WGSL comes from.
+pub(crate) enum Pieces {
+    /// From this crate.
+    Built(fn(&Settings) -> Result<Vec<Piece>, Error>),
+    /// From a user's file.
+    Read(Piece),
 }
 
 /// Something that can be set.
@@ -59,17 +70,37 @@ pub enum Kind {
 }
 
 impl Method {
-    /// The method of that id or alias.
+    /// The method of that id or alias, or the one that a `.wgsl` file holds.
     ///
     /// # Errors
     /// If there is none.
     pub fn find(wanted: &str) -> Result<&'static Self, Error> {
+        if wanted.ends_with(".wgsl") {
+            return file::method(wanted);
+        }
         let found = METHODS
             .iter()
-            .find(|method| method.id == wanted || method.alias.eq_ignore_ascii_case(wanted));
+            .find(|method| method.id == wanted || method.alias.eq_ignore_ascii_case(wanted))
+            .or_else(|| file::known(wanted));
         found.ok_or_else(|| Error::UnknownMethod {
             wanted: wanted.to_owned(),
             available: METHODS.iter().map(|method| method.id).collect::<Vec<_>>().join(", "),
         })
+    }
+
+    /// The WGSL of a method from a file.
+    #[must_use]
+    pub fn file_text(&self) -> Option<&str> {
+        match &self.pieces {
+            Pieces::Built(_) => None,
+            Pieces::Read(piece) => Some(&piece.text),
+        }
+    }
+
+    pub(crate) fn pieces(&self, settings: &Settings) -> Result<Vec<Piece>, Error> {
+        match &self.pieces {
+            Pieces::Built(pieces) => pieces(settings),
+            Pieces::Read(piece) => Ok(vec![piece.clone()]),
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! The rows.
 
-use super::{Kind, Method, Parameter, Settings};
+use super::{Kind, Method, Parameter, Pieces, Settings};
 use crate::Error;
 use crate::wgsl::Piece;
 
@@ -38,7 +38,8 @@ pub static METHODS: &[Method] = &[
         about: "Light goes straight through. What every method must beat; exact for thin parallel plates.",
         bibtex: "",
         parameters: &[],
-        pieces: |_| Ok(vec![file!("undeviated.wgsl")]),
+        traces_colours: false,
+        pieces: Pieces::Built(|_| Ok(vec![file!("undeviated.wgsl")])),
     },
     Method {
         id: "dx7-vertex",
@@ -47,7 +48,8 @@ pub static METHODS: &[Method] = &[
         about: "The reflection formula with another factor, per vertex, interpolated without normalising. With the printed 1/n light bends the wrong way; triangles show.",
         bibtex: DX7_BIBTEX,
         parameters: &[DX7_FACTOR, INDEX_SCALE],
-        pieces: vertex_pieces,
+        traces_colours: false,
+        pieces: Pieces::Built(vertex_pieces),
     },
     Method {
         id: "dx7",
@@ -56,9 +58,10 @@ pub static METHODS: &[Method] = &[
         about: "The same formula at every pixel. Bends the wrong way with the printed 1/n; no second interface, no parallax.",
         bibtex: DX7_BIBTEX,
         parameters: &[DX7_FACTOR, INDEX_SCALE],
-        pieces: |settings| {
+        traces_colours: false,
+        pieces: Pieces::Built(|settings| {
             Ok(vec![dx7_factor(settings), effective_index(settings), file!("dx7.wgsl")])
-        },
+        }),
     },
     Method {
         id: "one-interface",
@@ -67,7 +70,10 @@ pub static METHODS: &[Method] = &[
         about: "Exact at the first surface, nothing at the second: a slab turns light that it should only shift, a ball refracts half of what it should.",
         bibtex: DX7_BIBTEX,
         parameters: &[INDEX_SCALE],
-        pieces: |settings| Ok(vec![effective_index(settings), file!("one_interface.wgsl")]),
+        traces_colours: false,
+        pieces: Pieces::Built(|settings| {
+            Ok(vec![effective_index(settings), file!("one_interface.wgsl")])
+        }),
     },
     Method {
         id: "one-interface-vertex",
@@ -76,7 +82,8 @@ pub static METHODS: &[Method] = &[
         about: "As one-interface, but bent at the vertices and interpolated: coarse triangles show.",
         bibtex: DX7_BIBTEX,
         parameters: &[INDEX_SCALE],
-        pieces: vertex_pieces,
+        traces_colours: false,
+        pieces: Pieces::Built(vertex_pieces),
     },
     Method {
         id: "blended",
@@ -121,7 +128,8 @@ pub static METHODS: &[Method] = &[
             number("crack_shininess", 64.0, 8.0, 256.0, "", "exponent of the cracks' glitter"),
             number("crack_strength", 1.0, 0.0, 100.0, "", "brightness of the cracks' glitter"),
         ],
-        pieces: blended_pieces,
+        traces_colours: false,
+        pieces: Pieces::Built(blended_pieces),
     },
     Method {
         id: "two-interface",
@@ -147,7 +155,8 @@ pub static METHODS: &[Method] = &[
                 "share of the reflection; the paper has none",
             ),
         ],
-        pieces: two_interface_pieces,
+        traces_colours: true,
+        pieces: Pieces::Built(two_interface_pieces),
     },
     Method {
         id: "multi-paper",
@@ -156,7 +165,10 @@ pub static METHODS: &[Method] = &[
         about: "Walks from layer to layer by number, with the repairs without which the printed listing does not run. Wrong where the ray crosses an interface sideways: walls of shells, bubbles.",
         bibtex: MA_BIBTEX,
         parameters: &[PROBE_DIV, BINARY_STEPS, MAX_STEPS, MAX_EVENTS, MULTI_FRESNEL],
-        pieces: |settings| Ok(vec![march_constants(settings, false), file!("multi_paper.wgsl")]),
+        traces_colours: true,
+        pieces: Pieces::Built(|settings| {
+            Ok(vec![march_constants(settings, false), file!("multi_paper.wgsl")])
+        }),
     },
     Method {
         id: "multi",
@@ -165,7 +177,10 @@ pub static METHODS: &[Method] = &[
         about: "As multi-paper, but an interface is where the medium changes, counted from the layers in front. First order in the resolution of the layers; rays that turn sideways find no layer to hit.",
         bibtex: MA_BIBTEX,
         parameters: &[PROBE_DIV, BINARY_STEPS, MAX_STEPS, MAX_EVENTS, TIR, MULTI_FRESNEL],
-        pieces: |settings| Ok(vec![march_constants(settings, true), file!("multi.wgsl")]),
+        traces_colours: true,
+        pieces: Pieces::Built(|settings| {
+            Ok(vec![march_constants(settings, true), file!("multi.wgsl")])
+        }),
     },
 ];
 

@@ -3,3 +3,7 @@
 fn blended_normal(pixel: vec2i, v_ws: vec3f, n_f: vec3f) -> vec3f {
     return n_f;
 }
+
+fn flag_back(pixel: vec2i, body: u32) -> u32 {
+    return 0u;
+}

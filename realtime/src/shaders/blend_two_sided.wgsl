@@ -13,3 +13,7 @@ fn blended_normal(pixel: vec2i, v_ws: vec3f, n_f: vec3f) -> vec3f {
     }
     return finish_normal(mixed, v_ws);
 }
+
+fn flag_back(pixel: vec2i, body: u32) -> u32 {
+    return flag_other_body(pixel, body);
+}

@@ -3,12 +3,13 @@
 // (eq. 1) and light is bent once at the mixture (eq. 2).
 
 fn trace(pixel: vec2i, v_ws: vec3f, surface: Surface) -> Trace {
-    let eta_i_over_t = frame.eta_outside / bodies[surface.body].eta;
+    let eta_i_over_t = frame.eta_outside / eta_body(surface.body);
     let n_r = blended_normal(pixel, v_ws, surface.normal_ws);
     let c = dot(n_r, v_ws);
     let k = 1.0 - eta_i_over_t * eta_i_over_t * (1.0 - c * c);
     // Eq. 2 as printed: n_r is not turned towards the eye.
     let r = eta_i_over_t * v_ws - (eta_i_over_t * c + sqrt(max(k, 0.0))) * n_r;
     let d_ws = normalize(r);
-    return Trace(d_ws, d_ws, vec3f(0.0), 0.0, 1u, select(0u, FLAG_TIR_CLAMPED, k < 0.0));
+    let flags = flag_back(pixel, surface.body) | select(0u, FLAG_TIR_CLAMPED, k < 0.0);
+    return Trace(d_ws, d_ws, vec3f(0.0), 0.0, 1u, flags);
 }

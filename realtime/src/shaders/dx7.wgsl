@@ -9,7 +9,7 @@ fn dx7_vector(v_ws: vec3f, n_ws: vec3f, eta: f32) -> vec3f {
 }
 
 fn trace(pixel: vec2i, v_ws: vec3f, surface: Surface) -> Trace {
-    let eta = effective_index(bodies[surface.body].eta) / frame.eta_outside;
+    let eta = effective_index(eta_body(surface.body)) / frame.eta_outside;
     let d_ws = normalize(dx7_vector(v_ws, surface.normal_ws, eta));
     return Trace(d_ws, d_ws, vec3f(0.0), 0.0, 1u, 0u);
 }

@@ -20,6 +20,7 @@ struct Body {
     eta: f32,
     solid: u32,                 // same number: same medium and priority; falling priority
     absorption_per_m: vec3f,
+    eta_channels: vec3f,        // of red, green and blue light
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;

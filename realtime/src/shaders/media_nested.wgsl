@@ -27,7 +27,7 @@ fn eta_of(medium: u32) -> f32 {
     }
     for (var body = 0u; body < 16u; body += 1u) {
         if (bodies[body].solid + 1u == medium) {
-            return bodies[body].eta;
+            return eta_body(body);
         }
     }
     return frame.eta_outside;

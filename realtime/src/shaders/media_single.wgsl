@@ -13,7 +13,7 @@ fn medium_behind(pixel: vec2i, k: u32) -> u32 {
 }
 
 fn eta_of(medium: u32) -> f32 {
-    return select(frame.eta_outside, bodies[0].eta, medium == 1u);
+    return select(frame.eta_outside, eta_body(0), medium == 1u);
 }
 
 // Which way the surface between two media faces: true when its solid is ahead.

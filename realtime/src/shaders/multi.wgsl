@@ -185,7 +185,7 @@ fn cross_interface(chain: ptr<function, Chain>, crossing: Crossing, medium: ptr<
 }
 
 fn trace(pixel: vec2i, v_ws: vec3f, surface: Surface) -> Trace {
-    let entered = enter(v_ws, surface, frame.eta_outside / bodies[surface.body].eta);
+    let entered = enter(v_ws, surface, frame.eta_outside / eta_body(surface.body));
     let chain = march(surface.p_lc, entered.d_ws, first_medium(surface.body));
     return Trace(chain.d_ws, entered.d_ws, chain.hit2_lc, chain.path_m, chain.events,
         entered.flags | chain.flags);

@@ -85,7 +85,7 @@ fn meet_next_layer(chain: ptr<function, Chain>, q_lc: vec3f, n: u32, eta_inside:
 }
 
 fn trace(pixel: vec2i, v_ws: vec3f, surface: Surface) -> Trace {
-    let eta_inside = bodies[surface.body].eta;
+    let eta_inside = eta_body(surface.body);
     let entered = enter(v_ws, surface, frame.eta_outside / eta_inside);
     let chain = march_paper(surface.p_lc, entered.d_ws, eta_inside, frame.eta_outside);
     return Trace(chain.d_ws, entered.d_ws, chain.hit2_lc, chain.path_m, chain.events,

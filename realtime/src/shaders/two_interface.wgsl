@@ -14,7 +14,7 @@ fn view_weight(v_ws: vec3f, n_ws: vec3f, d_ws: vec3f, eta_i_over_t: f32) -> f32 
 }
 
 fn trace(pixel: vec2i, v_ws: vec3f, surface: Surface) -> Trace {
-    let eta_i_over_t = frame.eta_outside / bodies[surface.body].eta;
+    let eta_i_over_t = frame.eta_outside / eta_body(surface.body);
     let entered = enter(v_ws, surface, eta_i_over_t);
     let d_view_m = max(back_depth_at_m(pixel) - surface.depth_m, 0.0) / dot(v_ws, frame.forward_ws);
     let d_normal_m = textureLoad(front_thickness, pixel, 0).x;
@@ -23,7 +23,7 @@ fn trace(pixel: vec2i, v_ws: vec3f, surface: Surface) -> Trace {
     let hit2_lc = surface.p_lc + clamp(distance_m, 0.0, 2.0 * frame.radius_m) * entered.d_ws;
     let second = second_normal(project_px(hit2_lc), entered.d_ws, surface.normal_ws);
     let left = bend(entered.d_ws, -second.n_ws, 1.0 / eta_i_over_t);
-    let flags = entered.flags | second.flags | select(0u, FLAG_TIR_CLAMPED, left.total);
+    let flags = entered.flags | second.flags | flag_other_body(pixel, surface.body) | select(0u, FLAG_TIR_CLAMPED, left.total);
     return Trace(left.direction, entered.d_ws, hit2_lc, distance(surface.p_lc, hit2_lc), 2u, flags);
 }
 

@@ -1,8 +1,10 @@
 //! Laws that images and plans must obey, through the crate's own front door.
 #![allow(clippy::unwrap_used, reason = "a test that cannot render must fail")]
 
+mod colour;
 mod environment;
 mod first_event;
+mod flags;
 mod plans;
 mod requests;
 
