@@ -24,6 +24,7 @@ fn approximate(gpu: &realtime::Gpu, scene: &Scene, method: &str, layer: &LayerNa
         parameters: [].into(),
         filter: realtime::Filter::Manual,
         timing: None,
+        elide: true,
     };
     vectors(&realtime::render(gpu, scene, &request).unwrap().layers, layer)
 }

@@ -41,7 +41,7 @@ impl Backdrop {
     /// None if nothing opaque is there.
     pub(crate) fn new(order: &Order<'_>) -> Result<Option<Self>, Error> {
         let parts = &order.geometry.opaque;
-        if parts.is_empty() {
+        if !order.draws_backdrop() {
             return Ok(None);
         }
         let vector = crate::composition::no_vector_piece();

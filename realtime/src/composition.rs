@@ -6,8 +6,10 @@ use crate::geometry::Geometry;
 use crate::interior::Interior;
 use crate::method::{Method, Settings};
 use crate::surfaces::{STORED, Sides, Surfaces, Target, target};
+use crate::uniforms::Body;
 use crate::wgsl::{Piece, Shader};
 use crate::{Error, Request};
+use glam::DVec3;
 use scenes::{Camera, Environment, LayerName, Projection, Scene};
 
 macro_rules! piece {
@@ -45,10 +47,12 @@ pub(crate) struct Peel {
 /// A frame, as far as it can be known without a GPU.
 pub(crate) struct Composition {
     pub(crate) method: &'static Method,
+    /// Nothing bends light here.
+    pub(crate) index_matched: bool,
     pub(crate) shade: Shader,
     pub(crate) outputs: Vec<&'static str>,
     pub(crate) backdrop: Option<Backdrop>,
-    pub(crate) front: Surfaces,
+    pub(crate) front: Option<Surfaces>,
     pub(crate) back: Option<Surfaces>,
     pub(crate) peel: Option<Peel>,
     pub(crate) interior: Option<Interior>,
@@ -81,6 +85,9 @@ pub(crate) struct Order<'a> {
 impl Composition {
     pub(crate) fn new(order: &Order<'_>) -> Result<Self, Error> {
         let Order { settings, geometry, .. } = *order;
+        if order.is_off_screen() {
+            return Self::of_background(order);
+        }
         let shade = Shader::link(&shade_pieces(order)?)?;
         let head = order.raster_head();
         let interior = Interior::new(order, &head)?;
@@ -88,6 +95,8 @@ impl Composition {
             let inside = interior.as_ref().is_some_and(|interior| interior.reads(target.name));
             shade.uses(&["shade"], target.name) || inside || asked(order.request, target.name)
         };
+        let keep_all = !order.request.elide;
+        let wanted = |target: &Target| keep_all || wanted(target);
         let front: Vec<Target> = FRONT.into_iter().filter(wanted).collect();
         let back: Vec<Target> = BACK.into_iter().filter(wanted).collect();
         let surfaces =
@@ -98,8 +107,9 @@ impl Composition {
             || interior.as_ref().is_some_and(|interior| interior.reads("slot_counts"));
         Ok(Self {
             method: order.method,
+            index_matched: order.is_index_matched(),
             backdrop: Backdrop::new(order)?,
-            front: surfaces("front", front, Sides::Front)?,
+            front: Some(surfaces("front", front, Sides::Front)?),
             back: back.transpose()?,
             peel: if peels { Some(Peel::new(order, &head)?) } else { None },
             interior,
@@ -108,9 +118,38 @@ impl Composition {
         })
     }
 
+    /// No body is in the image: what is around them is all there is.
+    fn of_background(order: &Order<'_>) -> Result<Self, Error> {
+        let drawn = order.draws_backdrop();
+        let background =
+            if drawn { piece!("background_drawn.wgsl") } else { piece!("background_sky.wgsl") };
+        let shade = Shader::link(&[
+            piece!("frame.wgsl"),
+            camera_piece(order.camera),
+            order.environment_piece(drawn),
+            piece!("front.wgsl"),
+            piece!("geometric_same.wgsl"),
+            background,
+            outputs_piece(order.outputs),
+            piece!("shade_background.wgsl"),
+        ])?;
+        Ok(Self {
+            method: order.method,
+            index_matched: order.is_index_matched(),
+            backdrop: Backdrop::new(order)?,
+            front: None,
+            back: None,
+            peel: None,
+            interior: None,
+            shade,
+            outputs: order.outputs.to_vec(),
+        })
+    }
+
     /// True if some pass reads the distance through the body.
     pub(crate) fn reads_thickness(&self) -> bool {
-        self.front.targets.iter().any(|target| target.name == "front_thickness")
+        let front = self.front.iter().flat_map(|front| &front.targets);
+        front.into_iter().any(|target| target.name == "front_thickness")
     }
 
     /// True if cracks are drawn that end at the body's surface by themselves.
@@ -153,6 +192,34 @@ impl Order<'_> {
         head
     }
 
+    /// No body's bounds reach into the image, and nobody asks for its buffers.
+    pub(crate) fn is_off_screen(&self) -> bool {
+        let asks = self.request.view.layers.iter().any(|l| matches!(l, LayerName::Buffer(_)));
+        let shown = || self.geometry.outlines.iter().any(|corners| in_view(self.camera, corners));
+        self.request.elide && !asks && !shown()
+    }
+
+    /// The bodies have the index of what is around them and take no light. What
+    /// is interpolated between vertices bends a little even so, and eq. 4 of
+    /// Seipel & Nivfors reflects whatever the index: they are left as they are.
+    pub(crate) fn is_index_matched(&self) -> bool {
+        let outside = self.scene.media[0].eta.get();
+        let same = |body: &Body| (f64::from(body.eta) / outside - 1.0).abs() < 1e-7;
+        let geometry = self.geometry;
+        let bends_anyway = self.method.id.ends_with("-vertex")
+            || self.settings.word_if_any("fresnel") == Some("eq4");
+        self.request.elide
+            && !bends_anyway
+            && geometry.media.iter().all(same)
+            && !geometry.absorbs
+            && !geometry.disperses
+    }
+
+    /// Opaque surfaces stand around the bodies.
+    pub(crate) fn draws_backdrop(&self) -> bool {
+        !self.geometry.opaque.is_empty()
+    }
+
     /// How the environment is looked up: the scene's, or one that was drawn.
     pub(crate) fn environment_piece(&self, drawn: bool) -> Piece {
         match (&self.scene.environment, self.request.filter) {
@@ -165,7 +232,7 @@ impl Order<'_> {
 
 fn shade_pieces(order: &Order<'_>) -> Result<Vec<Piece>, Error> {
     let Order { settings, geometry, .. } = *order;
-    let drawn = !geometry.opaque.is_empty();
+    let (drawn, keep_all) = (order.draws_backdrop(), !order.request.elide);
     let mut pieces =
         vec![piece!("frame.wgsl"), camera_piece(order.camera), piece!("interface.wgsl")];
     pieces.push(order.environment_piece(drawn));
@@ -175,12 +242,12 @@ fn shade_pieces(order: &Order<'_>) -> Result<Vec<Piece>, Error> {
     let media =
         if geometry.nested { piece!("media_nested.wgsl") } else { piece!("media_single.wgsl") };
     pieces.extend([order.pack(), piece!("layers.wgsl"), media, piece!("march.wgsl")]);
-    pieces.push(if geometry.bodies.smooth {
+    pieces.push(if geometry.bodies.smooth || keep_all {
         piece!("geometric_stored.wgsl")
     } else {
         piece!("geometric_same.wgsl")
     });
-    pieces.extend(if geometry.disperses && order.method.traces_colours {
+    pieces.extend(if (geometry.disperses || keep_all) && order.method.traces_colours {
         [piece!("eta_dispersed.wgsl"), piece!("colours_apart.wgsl")]
     } else {
         [piece!("eta_single.wgsl"), piece!("colours_together.wgsl")]
@@ -188,9 +255,13 @@ fn shade_pieces(order: &Order<'_>) -> Result<Vec<Piece>, Error> {
     pieces.push(piece!("first_event.wgsl"));
     pieces.push(if geometry.absorbs { piece!("absorb.wgsl") } else { piece!("absorb_none.wgsl") });
     pieces.extend(Interior::shown(order));
-    pieces.extend(reflection(settings));
     pieces.push(outputs_piece(order.outputs));
-    pieces.extend(order.method.pieces(settings)?);
+    if order.is_index_matched() {
+        pieces.extend([piece!("reflect_none.wgsl"), piece!("undeviated.wgsl")]);
+    } else {
+        pieces.extend(reflection(settings));
+        pieces.extend(order.method.pieces(settings)?);
+    }
     Ok(pieces)
 }
 
@@ -290,4 +361,22 @@ pub(crate) fn no_vector_piece() -> Piece {
         "no vertex vector",
         "fn vertex_vector(v_ws: vec3f, n_ws: vec3f, body: u32) -> vec3f { return vec3f(0.0); }\n",
     )
+}
+
+/// Some of the corners of a box may be in the image: they do not all lie beyond
+/// the same side of the view.
+fn in_view(camera: &Camera, corners: &[DVec3; 8]) -> bool {
+    let basis = camera.basis();
+    let half = camera.half_extent();
+    let perspective = matches!(camera.projection, Projection::Perspective { .. });
+    let mut beyond = [true; 5];
+    for corner in corners {
+        let from_eye = *corner - camera.eye;
+        let depth_m = from_eye.dot(basis.forward);
+        let reach = if perspective { depth_m * half } else { half };
+        let (x, y) = (from_eye.dot(basis.right), from_eye.dot(basis.up));
+        let outside = [x > reach.x, x < -reach.x, y > reach.y, y < -reach.y, depth_m < 0.0];
+        beyond.iter_mut().zip(outside).for_each(|(all, one)| *all &= one);
+    }
+    !beyond.contains(&true)
 }

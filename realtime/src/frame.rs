@@ -29,7 +29,7 @@ pub(crate) struct Viewed<'a> {
 pub(crate) struct Frame {
     resolution_px: [u32; 2],
     backdrop: Option<DrawnBackdrop>,
-    front: DrawnSurfaces,
+    front: Option<DrawnSurfaces>,
     back: Option<DrawnSurfaces>,
     peel: Option<Peeled>,
     interior: Option<DrawnInterior>,
@@ -44,7 +44,9 @@ impl Frame {
         if let Some(backdrop) = &self.backdrop {
             backdrop.record(recorder, first);
         }
-        self.front.record(recorder, &self.resources);
+        if let Some(front) = &self.front {
+            front.record(recorder, &self.resources);
+        }
         if let Some(back) = &self.back {
             back.record(recorder, &self.resources);
         }
@@ -89,7 +91,8 @@ impl Frame {
         }
         let bodies = &view.geometry.bodies;
         let maker = Maker::new(gpu, allocator, bodies, view.resolution_px)?;
-        let front = maker.surfaces(&composition.front, &mut resources)?;
+        let front = composition.front.as_ref();
+        let front = front.map(|front| maker.surfaces(front, &mut resources)).transpose()?;
         let back = composition.back.as_ref();
         let back = back.map(|back| maker.surfaces(back, &mut resources)).transpose()?;
         let peel = composition.peel.as_ref();

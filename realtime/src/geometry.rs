@@ -31,6 +31,8 @@ pub(crate) struct Geometry {
     pub(crate) centre: DVec3,
     /// Radius about the centre that holds every bounded object, metres.
     pub(crate) radius_m: f64,
+    /// Corners of the bodies' bounds, world space, metres.
+    pub(crate) outlines: Vec<[DVec3; 8]>,
     /// Middle of the bodies, local space.
     pub(crate) middle_lc: Vec3,
     /// Some body absorbs.
@@ -78,6 +80,7 @@ impl Geometry {
             towards_light_ws: towards_light(scene),
             centre,
             radius_m: radius_m.max(f64::MIN_POSITIVE),
+            outlines: Vec::new(),
             middle_lc: middle(&solids, time_s, centre),
             absorbs: false,
             disperses: false,
@@ -112,6 +115,7 @@ impl Geometry {
         let shape = object.shape_at(time_s);
         let world_from_object = object.world_from_object_at(time_s);
         let placed = Placed { shape: &shape, world_from_object, normals: object.normals, number };
+        self.outlines.push(corners(shape.bounds()).map(|p| world_from_object.transform_point3(p)));
         self.bodies.add(&placed, 1e4 * self.radius_m);
         if let Some(bump) = &object.bump {
             // The bent normal needs the unbent one beside it.
@@ -179,6 +183,14 @@ fn at_most(what: &str, count: usize, most: usize) -> Result<(), Error> {
     Err(Error::NotYet {
         what: format!("a scene of {count} {what} (at most {most})"),
         method: "any".to_owned(),
+    })
+}
+
+/// Corners of a box; not finite where it has no bounds, and then beyond no side.
+fn corners([low, high]: [DVec3; 2]) -> [DVec3; 8] {
+    std::array::from_fn(|i| {
+        let pick = |bit: usize, l: f64, h: f64| if i >> bit & 1 == 0 { l } else { h };
+        DVec3::new(pick(0, low.x, high.x), pick(1, low.y, high.y), pick(2, low.z, high.z))
     })
 }
 

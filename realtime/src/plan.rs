@@ -89,8 +89,16 @@ fn of(
         draft.buffer(output, draft.pixels * 16);
     }
     draft.corners(&geometry.bodies);
-    draft.surfaces(&composition.front, draft.pixels, 1);
-    draft.pass("front");
+    match &composition.front {
+        Some(front) => {
+            draft.surfaces(front, draft.pixels, 1);
+            draft.pass("front");
+        }
+        None => {
+            let reason = "no body is in the image";
+            draft.plan.leave_out(Kind::Pass, "front", reason, draft.pixels * (16 + 4 + 4));
+        }
+    }
     match &composition.back {
         Some(back) => {
             draft.surfaces(back, draft.pixels, 1);
@@ -113,6 +121,10 @@ fn of(
     draft.pass("shade");
     let Draft { mut plan, pixels, .. } = draft;
     leave_out(&mut plan, composition, scene, geometry, pixels);
+    if composition.index_matched {
+        let reason = "the bodies have the index of what is around them: light goes straight on";
+        plan.leave_out(Kind::Code, "refraction and reflection", reason, 0);
+    }
     unsupported(&mut plan, composition.method, composition, geometry);
     plan
 }

@@ -25,6 +25,9 @@ pub struct Request {
     pub filter: Filter,
     /// How long to measure, if at all.
     pub timing: Option<Timing>,
+    /// Leave out what the scene does not need. False runs every pass and all code
+    /// with neutral input: to see that the image is the same and what is saved.
+    pub elide: bool,
 }
 
 /// How long frames are timed.

@@ -59,6 +59,7 @@ fn mean_angle_deg(gpu: &Gpu, eta: f64, method: &str, parameters: &[(&str, &str)]
         parameters: parameters.iter().map(|(n, v)| ((*n).to_owned(), (*v).to_owned())).collect(),
         filter: Filter::Manual,
         timing: None,
+        elide: true,
     };
     let rendering = render(gpu, &scene, &request).unwrap();
     let exit = rendering.layers.get(&LayerName::Exit).unwrap();

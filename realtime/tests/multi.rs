@@ -103,6 +103,7 @@ fn errors(gpu: &Gpu, body: &Body, size_px: u32, method: &str) -> (f64, f64) {
         parameters: [].into(),
         filter: Filter::Manual,
         timing: None,
+        elide: true,
     };
     let rendering = render(gpu, &scene, &request).unwrap();
     let layer = rendering.layers.get(&LayerName::Exit).unwrap();

@@ -47,7 +47,8 @@ pub(super) fn run(args: &Args, output: Output) -> Result<Status, Error> {
         Some(method) => {
             let parameters = args.parameters.iter().cloned().collect();
             let (filter, method) = (realtime::Filter::Manual, method.clone());
-            let request = realtime::Request { view, method, parameters, filter, timing: None };
+            let request =
+                realtime::Request { view, method, parameters, filter, timing: None, elide: true };
             (request.method.clone(), realtime::plan(&scene, &request)?)
         }
         None => {

@@ -25,6 +25,9 @@ pub(super) struct Args {
     /// formula of the exact renderer
     #[arg(long)]
     hardware_filter: bool,
+    /// Leave nothing out: run every pass and all code, needed or not, to see what leaving out saves
+    #[arg(long)]
+    keep_all: bool,
     #[command(flatten)]
     view: ViewArgs,
     #[command(flatten)]
@@ -39,6 +42,7 @@ pub(super) fn run(args: &Args, output: Output) -> Result<Status, Error> {
         parameters: args.parameters.iter().cloned().collect(),
         filter: if args.hardware_filter { Filter::Hardware } else { Filter::Manual },
         timing: args.timing.map(|seconds| Timing { seconds, ..Timing::default() }),
+        elide: !args.keep_all,
     };
     let gpu = args.adapter.open()?;
     let rendering = realtime::render(&gpu, &scene, &request)?;

@@ -44,6 +44,7 @@ impl<'a> Approximation<'a> {
             parameters: BTreeMap::new(),
             filter: Filter::Manual,
             timing: Some(timing),
+            elide: true,
         };
         Self { scene, request }
     }

@@ -65,6 +65,7 @@ fn drawn(scene: &Scene, frame: u32) -> Vec<(DVec3, DVec3)> {
         parameters: [].into(),
         filter: Filter::Hardware,
         timing: None,
+        elide: true,
     };
     let settings = Settings::new(method, &request.parameters).unwrap();
     let geometry = Geometry::new(scene, frame).unwrap();

@@ -5,6 +5,7 @@ mod colour;
 mod environment;
 mod first_event;
 mod flags;
+mod leaving_out;
 mod plans;
 mod requests;
 
@@ -76,6 +77,7 @@ fn request(scene: &Scene, method: &str, layers: &[LayerName]) -> Request {
         parameters: [].into(),
         filter: Filter::Manual,
         timing: None,
+        elide: true,
     }
 }
 
