@@ -50,7 +50,7 @@ impl Backdrop {
             let mut surface_head = head.to_vec();
             surface_head.extend([vector.clone(), piece!("opaque.wgsl")]);
             let mut sky_head = head.to_vec();
-            sky_head.push(order.environment_piece(false));
+            sky_head.extend([piece!("cube.wgsl"), order.environment_piece(false)]);
             Surfaces::new(name, targets, Sides::Opaque, &surface_head, parts)?
                 .over_sky(&sky_head, sky_values)
         };

@@ -5,6 +5,7 @@ use crate::backdrop::Backdrop;
 use crate::geometry::Geometry;
 use crate::interior::Interior;
 use crate::method::{Method, Settings};
+use crate::normals;
 use crate::surfaces::{STORED, Sides, Surfaces, Target, target};
 use crate::uniforms::Body;
 use crate::wgsl::{Piece, Shader};
@@ -56,6 +57,8 @@ pub(crate) struct Composition {
     pub(crate) back: Option<Surfaces>,
     pub(crate) peel: Option<Peel>,
     pub(crate) interior: Option<Interior>,
+    /// Normals of the bodies in a cube about their middle.
+    pub(crate) normals: Option<Surfaces>,
 }
 
 /// How the environment is looked up.
@@ -103,6 +106,9 @@ impl Composition {
             |name, targets, sides| Surfaces::new(name, targets, sides, &head, &geometry.bodies);
         let farthest = settings.word_if_any("back_select") != Some("nearest");
         let back = (!back.is_empty()).then(|| surfaces("back", back, Sides::Back { farthest }));
+        let normals = shade
+            .uses(&["shade"], "normal_faces")
+            .then(|| normals::composed(order, &geometry.bodies));
         let peels = shade.uses(&["shade"], "slot_counts")
             || interior.as_ref().is_some_and(|interior| interior.reads("slot_counts"));
         Ok(Self {
@@ -112,6 +118,7 @@ impl Composition {
             front: Some(surfaces("front", front, Sides::Front)?),
             back: back.transpose()?,
             peel: if peels { Some(Peel::new(order, &head)?) } else { None },
+            normals: normals.transpose()?,
             interior,
             shade,
             outputs: order.outputs.to_vec(),
@@ -126,6 +133,7 @@ impl Composition {
         let shade = Shader::link(&[
             piece!("frame.wgsl"),
             camera_piece(order.camera),
+            piece!("cube.wgsl"),
             order.environment_piece(drawn),
             piece!("front.wgsl"),
             piece!("geometric_same.wgsl"),
@@ -141,6 +149,7 @@ impl Composition {
             back: None,
             peel: None,
             interior: None,
+            normals: None,
             shade,
             outputs: order.outputs.to_vec(),
         })
@@ -182,7 +191,12 @@ impl Order<'_> {
 
     /// What every pass that draws the bodies begins with.
     fn raster_head(&self) -> Vec<Piece> {
-        let mut head = vec![piece!("frame.wgsl"), camera_piece(self.camera)];
+        self.raster_head_of(camera_piece(self.camera))
+    }
+
+    /// The same for another camera.
+    pub(crate) fn raster_head_of(&self, camera: Piece) -> Vec<Piece> {
+        let mut head = vec![piece!("frame.wgsl"), camera];
         head.extend(vector_piece(self.method, self.settings));
         match self.geometry.bumps {
             Some(_) => head.extend([piece!("noise.wgsl"), piece!("bump.wgsl")]),
@@ -235,7 +249,7 @@ fn shade_pieces(order: &Order<'_>) -> Result<Vec<Piece>, Error> {
     let (drawn, keep_all) = (order.draws_backdrop(), !order.request.elide);
     let mut pieces =
         vec![piece!("frame.wgsl"), camera_piece(order.camera), piece!("interface.wgsl")];
-    pieces.push(order.environment_piece(drawn));
+    pieces.extend([piece!("cube.wgsl"), order.environment_piece(drawn)]);
     let background =
         if drawn { piece!("background_drawn.wgsl") } else { piece!("background_sky.wgsl") };
     pieces.extend([piece!("front.wgsl"), piece!("back.wgsl"), background, piece!("shade.wgsl")]);

@@ -5,6 +5,7 @@ use crate::backdrop::DrawnBackdrop;
 use crate::composition::Composition;
 use crate::geometry::Geometry;
 use crate::interior::DrawnInterior;
+use crate::normals::DrawnNormals;
 use crate::peel::Peeled;
 use crate::pipelines::{DrawnSurfaces, Maker, OverPixels};
 use crate::recorder::{Allocator, Recorder};
@@ -29,6 +30,7 @@ pub(crate) struct Viewed<'a> {
 pub(crate) struct Frame {
     resolution_px: [u32; 2],
     backdrop: Option<DrawnBackdrop>,
+    normals: Option<DrawnNormals>,
     front: Option<DrawnSurfaces>,
     back: Option<DrawnSurfaces>,
     peel: Option<Peeled>,
@@ -43,6 +45,9 @@ impl Frame {
     pub(crate) fn record(&self, recorder: &mut Recorder<'_>, first: bool) {
         if let Some(backdrop) = &self.backdrop {
             backdrop.record(recorder, first);
+        }
+        if let Some(normals) = &self.normals {
+            normals.record(recorder, first);
         }
         if let Some(front) = &self.front {
             front.record(recorder, &self.resources);
@@ -102,9 +107,14 @@ impl Frame {
             .as_ref()
             .map(|interior| DrawnInterior::new(&maker, interior, view, &mut resources));
         let interior = interior.transpose()?;
+        let normals = composition
+            .normals
+            .as_ref()
+            .map(|normals| DrawnNormals::new(&maker, normals, view, &mut resources));
+        let normals = normals.transpose()?;
         let shade = maker.over_pixels(&composition.shade, "shade", &resources)?;
         let resolution_px = view.resolution_px;
-        Ok(Self { resolution_px, backdrop, front, back, peel, interior, shade, resources })
+        Ok(Self { resolution_px, backdrop, normals, front, back, peel, interior, shade, resources })
     }
 }
 
@@ -154,6 +164,7 @@ pub(crate) fn numbers(view: &Viewed<'_>, layer_capacity: u32) -> uniforms::Frame
     let (centre, radius_m) = (geometry.centre, geometry.radius_m);
     uniforms::Frame {
         layer_capacity,
+        middle_lc: geometry.middle_lc,
         ..uniforms::Frame::new(camera, resolution_px, centre, radius_m, eta_outside)
     }
 }

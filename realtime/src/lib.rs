@@ -13,6 +13,7 @@ mod geometry;
 mod gpu;
 mod interior;
 pub mod method;
+mod normals;
 mod parts;
 mod peel;
 mod pipelines;

@@ -182,7 +182,7 @@ impl<'a> Maker<'a> {
     ) -> Result<Option<(wgpu::TextureView, f32)>, Error> {
         let clear = match surfaces.sides {
             sides if !sides.has_depth() => return Ok(None),
-            Sides::Back { farthest: true } => 0.0,
+            Sides::Back { farthest: true } | Sides::Outermost => 0.0,
             _ => 1.0,
         };
         let name = format!("{} depth test", surfaces.name);
@@ -331,7 +331,7 @@ fn culled(sides: Sides) -> Option<wgpu::Face> {
 
 fn compare(sides: Sides) -> Option<wgpu::CompareFunction> {
     match sides {
-        Sides::Back { farthest: true } => Some(wgpu::CompareFunction::Greater),
+        Sides::Back { farthest: true } | Sides::Outermost => Some(wgpu::CompareFunction::Greater),
         Sides::Front | Sides::Back { farthest: false } => Some(wgpu::CompareFunction::Less),
         // What lies beyond the far plane still covers the sky.
         Sides::Opaque => Some(wgpu::CompareFunction::LessEqual),

@@ -6,6 +6,7 @@ use crate::composition::{Composition, OUTPUTS, Order};
 use crate::geometry::Geometry;
 use crate::interior::Interior;
 use crate::method::{Method, Settings};
+use crate::normals;
 use crate::parts::{Corner, Parts};
 use crate::render::{self, Part, Request, THICKNESS};
 use crate::surfaces::Surfaces;
@@ -89,6 +90,9 @@ fn of(
         draft.buffer(output, draft.pixels * 16);
     }
     draft.corners(&geometry.bodies);
+    if let Some(normals) = &composition.normals {
+        draft.normals(normals, part);
+    }
     match &composition.front {
         Some(front) => {
             draft.surfaces(front, draft.pixels, 1);
@@ -242,6 +246,23 @@ impl Draft<'_> {
         } else {
             let reason = "nothing moves: the cube was drawn before the first frame";
             self.plan.leave_out(Kind::Pass, "six faces of the cube", reason, 0);
+        }
+    }
+
+    fn normals(&mut self, surfaces: &Surfaces, part: &Part) {
+        let pixels = u64::from(normals::SIZE_PX).pow(2);
+        self.buffer("normal_faces", 6 * pixels * 16);
+        for _ in normals::FACES {
+            self.buffer("frame of a face", uniforms::Frame::min_size().get());
+            self.depth_test(surfaces, pixels);
+        }
+        // Both sides, for every face.
+        self.analytic(&self.geometry.bodies, 2 * normals::FACES.len());
+        if self.geometry.changes || !part.is_timed() {
+            normals::FACES.iter().for_each(|face| self.pass(face));
+        } else {
+            let reason = "nothing moves: the normals were drawn before the first frame";
+            self.plan.leave_out(Kind::Pass, "six faces of normals", reason, 0);
         }
     }
 

@@ -68,6 +68,8 @@ pub(crate) enum Sides {
     All,
     /// Both sides of opaque surfaces, nearest first.
     Opaque,
+    /// Both sides; the farthest is kept.
+    Outermost,
     /// Both sides, without a depth test: colours add up.
     Sum,
     /// Both sides, without a depth test: colours cover each other in the order
@@ -78,7 +80,7 @@ pub(crate) enum Sides {
 impl Sides {
     /// Whether a depth test decides what is seen.
     pub(crate) fn has_depth(self) -> bool {
-        matches!(self, Self::Front | Self::Back { .. } | Self::Opaque)
+        matches!(self, Self::Front | Self::Back { .. } | Self::Opaque | Self::Outermost)
     }
 }
 

@@ -21,6 +21,7 @@ pub(crate) struct Frame {
     pub(crate) eta_outside: f32,
     pub(crate) radius_m: f32,
     pub(crate) layer_capacity: u32,
+    pub(crate) middle_lc: Vec3,
 }
 
 /// Mirrors `Body` in frame.wgsl.
@@ -192,6 +193,7 @@ impl Frame {
             eta_outside: eta_outside as f32,
             radius_m: radius_m as f32,
             layer_capacity: 0,
+            middle_lc: Vec3::ZERO,
         }
     }
 }

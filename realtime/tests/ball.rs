@@ -144,3 +144,17 @@ fn methods_miss_a_ball_by_as_much_as_theory_says() {
     }
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
+
+/// Looked up along the ray, the normal of a ball is the ray itself: nothing is
+/// bent a second time. Looked up where the ray leaves, it is right to the texel.
+#[test]
+fn normals_in_a_cube_are_those_of_the_ray_or_of_the_place() {
+    let gpu = Gpu::open(None).unwrap();
+    for eta in [1.309, 1.5] {
+        let one = mean_angle_deg(&gpu, eta, "one-interface", &[]);
+        let direction = mean_angle_deg(&gpu, eta, "normal-cube", &[]);
+        let position = mean_angle_deg(&gpu, eta, "normal-cube", &[("lookup", "position")]);
+        assert!((direction - one).abs() < 0.02, "{direction} {one}");
+        assert!(position < 0.35, "{position}");
+    }
+}

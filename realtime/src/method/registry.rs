@@ -159,6 +159,27 @@ pub static METHODS: &[Method] = &[
         pieces: Pieces::Built(two_interface_pieces),
     },
     Method {
+        id: "normal-cube",
+        alias: "M3n",
+        title: "back normals from a cube map of the body",
+        about: "Bends at the first surface, takes the second normal from a cube of the body's normals in the direction of the ray, and bends again. Needs no second image of the body and no depth; the second surface is where the ray would leave from the middle, so what lies off the middle is bent wrongly. Wrong surfaces on concave bodies.",
+        bibtex: "@misc{Khan2004,\n  author = {A. Khan},\n  title = {Dual-sided Refraction Simulation},\n  note = {Shadertech contest, 2004; as described by Seipel and Nivfors, SIGRAD 2006}\n}",
+        parameters: &[
+            choice(
+                "lookup",
+                &["direction", "position"],
+                "where in the cube: along the ray's direction as published, or where the ray leaves a ball about the middle",
+            ),
+            choice(
+                "fresnel",
+                &["none", "schlick", "exact"],
+                "share of the reflection; the original has none",
+            ),
+        ],
+        traces_colours: true,
+        pieces: Pieces::Built(normal_cube_pieces),
+    },
+    Method {
         id: "multi-paper",
         alias: "M4p",
         title: "march through peeled layers, as published",
@@ -271,6 +292,14 @@ fn two_interface_pieces(settings: &Settings) -> Result<Vec<Piece>, Error> {
         _ => file!("back_bilinear.wgsl"),
     };
     Ok(vec![Piece::new("guessed distance", guess), filter, file!("two_interface.wgsl")])
+}
+
+fn normal_cube_pieces(settings: &Settings) -> Result<Vec<Piece>, Error> {
+    let lookup = match settings.word("lookup") {
+        "position" => file!("normal_lookup_position.wgsl"),
+        _ => file!("normal_lookup_direction.wgsl"),
+    };
+    Ok(vec![lookup, file!("normal_cube.wgsl")])
 }
 
 fn march_constants(settings: &Settings, winding: bool) -> Piece {

@@ -14,6 +14,7 @@ struct Frame {
     eta_outside: f32,
     radius_m: f32,              // of a ball about the local origin around all bodies
     layer_capacity: u32,        // interfaces per pixel that are kept
+    middle_lc: vec3f,           // of the bodies
 }
 
 struct Body {
