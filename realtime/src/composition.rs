@@ -25,7 +25,7 @@ const FRONT: [Target; 5] = [
     target("front_normal", true, "vec4f(surface_normal_ws(v), v.body)"),
     target("front_depth", false, "depth_of_m(v.p_lc)"),
     target("front_geometric", true, "vec4f(v.geometric_ws, 1.0)"),
-    target("front_vector", true, "vec4f(v.vector_ws, 1.0)"),
+    target("front_vector", true, "v.vector_ws"),
     target("front_thickness", false, "v.thickness_m"),
 ];
 
@@ -309,6 +309,7 @@ pub(crate) fn camera_piece(camera: &Camera) -> Piece {
 fn reflection(settings: &Settings) -> Vec<Piece> {
     let share = match settings.word_if_any("fresnel") {
         None | Some("none") => return vec![piece!("reflect_none.wgsl")],
+        _ if settings.word_if_any("eye") == Some("vertex") => "share_of_vertices(surface.pixel)",
         Some("eq4") => "fresnel_cubed(v_ws, surface.normal_ws)",
         Some("schlick") => {
             "fresnel_schlick(v_ws, surface.normal_ws, frame.eta_outside, eta_body(surface.body))"
@@ -352,18 +353,26 @@ fn vector_piece(method: &Method, settings: &Settings) -> Vec<Piece> {
             let a = if settings.word("a") == "direct" { "n" } else { "1.0 / n" };
             format!(
                 "let n = {index} / frame.eta_outside;\n    let a = {a};\n    \
-                 return (1.0 - a) * dot(n_ws, -v_ws) * n_ws + v_ws;"
+                 return vec4f((1.0 - a) * dot(n_ws, -v_ws) * n_ws + v_ws, 1.0);"
             )
         }
         "one-interface-vertex" => {
-            format!("return bend(v_ws, n_ws, frame.eta_outside / ({index})).direction;")
+            format!("return vec4f(bend(v_ws, n_ws, frame.eta_outside / ({index})).direction, 1.0);")
+        }
+        "blended" if settings.word("eye") == "vertex" => {
+            let share = match settings.word("fresnel") {
+                "schlick" => "fresnel_schlick(v_ws, n_ws, frame.eta_outside, eta)",
+                "exact" => "fresnel_exact(v_ws, n_ws, frame.eta_outside, eta)",
+                _ => "fresnel_cubed(v_ws, n_ws)",
+            };
+            format!("return vec4f(v_ws, {share});")
         }
         _ => {
             return vec![no_vector_piece()];
         }
     };
     let text = format!(
-        "fn vertex_vector(v_ws: vec3f, n_ws: vec3f, body: u32) -> vec3f {{\n    \
+        "fn vertex_vector(v_ws: vec3f, n_ws: vec3f, body: u32) -> vec4f {{\n    \
          let eta = bodies[body].eta;\n    {body}\n}}\n"
     );
     vec![piece!("interface.wgsl"), Piece::new("vertex vector", text)]
@@ -373,7 +382,7 @@ fn vector_piece(method: &Method, settings: &Settings) -> Vec<Piece> {
 pub(crate) fn no_vector_piece() -> Piece {
     Piece::new(
         "no vertex vector",
-        "fn vertex_vector(v_ws: vec3f, n_ws: vec3f, body: u32) -> vec3f { return vec3f(0.0); }\n",
+        "fn vertex_vector(v_ws: vec3f, n_ws: vec3f, body: u32) -> vec4f { return vec4f(0.0); }\n",
     )
 }
 

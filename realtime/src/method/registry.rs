@@ -105,6 +105,11 @@ pub static METHODS: &[Method] = &[
                 "what is done to the mixture: made a unit vector, left as it is, or made one and turned to the eye",
             ),
             choice("fresnel", &["eq4", "schlick", "exact", "none"], "share of the reflection"),
+            choice(
+                "eye",
+                &["fragment", "vertex"],
+                "where the viewing direction and the reflected share are found; the paper has them at vertices",
+            ),
             choice("back_format", &["32-bit", "8-bit"], "precision of the stored back normals"),
             choice(
                 "clip",
@@ -258,8 +263,12 @@ fn vertex_pieces(_: &Settings) -> Result<Vec<Piece>, Error> {
 
 fn blended_pieces(settings: &Settings) -> Result<Vec<Piece>, Error> {
     let a = settings.number("a");
+    let eye = match settings.word("eye") {
+        "vertex" => file!("eye_per_vertex.wgsl"),
+        _ => file!("eye_per_fragment.wgsl"),
+    };
     if a == 0.0 {
-        return Ok(vec![file!("blend_one_sided.wgsl"), file!("blended.wgsl")]);
+        return Ok(vec![eye, file!("blend_one_sided.wgsl"), file!("blended.wgsl")]);
     }
     let sign = if settings.word("back_normal") == "inward" { -1.0 } else { 1.0 };
     let finish = match settings.word("normal") {
@@ -272,6 +281,7 @@ fn blended_pieces(settings: &Settings) -> Result<Vec<Piece>, Error> {
          fn finish_normal(mixed: vec3f, v_ws: vec3f) -> vec3f {{ return {finish}; }}\n"
     );
     Ok(vec![
+        eye,
         Piece::new("blend constants", constants),
         file!("blend_two_sided.wgsl"),
         file!("blended.wgsl"),

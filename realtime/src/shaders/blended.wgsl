@@ -2,7 +2,8 @@
 // reflections in natural objects", 2006. Front and back normals are mixed
 // (eq. 1) and light is bent once at the mixture (eq. 2).
 
-fn trace(pixel: vec2i, v_ws: vec3f, surface: Surface) -> Trace {
+fn trace(pixel: vec2i, view_ws: vec3f, surface: Surface) -> Trace {
+    let v_ws = eye_vector(pixel, view_ws);
     let eta_i_over_t = frame.eta_outside / eta_body(surface.body);
     let n_r = blended_normal(pixel, v_ws, surface.normal_ws);
     let c = dot(n_r, v_ws);

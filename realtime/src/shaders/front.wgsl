@@ -5,6 +5,7 @@
 @group(0) @binding(6) var front_geometric: texture_2d<f32>;
 
 struct Surface {
+    pixel: vec2i,
     p_lc: vec3f,
     normal_ws: vec3f,           // shading normal, faces the eye
     geometric_ws: vec3f,        // the triangle's own, faces the eye
@@ -24,6 +25,7 @@ fn front_surface(pixel: vec2i, v_ws: vec3f) -> Surface {
     let depth_m = textureLoad(front_depth, pixel, 0).x;
     let geometric_ws = geometric_normal(pixel, stored.xyz);
     var surface: Surface;
+    surface.pixel = pixel;
     surface.p_lc = point_at_depth_lc(pixel_centre_px(pixel), depth_m);
     surface.normal_ws = normalize(stored.xyz);
     surface.geometric_ws = geometric_ws;

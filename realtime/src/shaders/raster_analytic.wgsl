@@ -26,7 +26,7 @@ struct Varyings {
     geometric_ws: vec3f,
     body: f32,
     thickness_m: f32,
-    vector_ws: vec3f,
+    vector_ws: vec4f,
 }
 
 @vertex

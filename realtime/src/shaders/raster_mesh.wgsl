@@ -16,7 +16,7 @@ struct Varyings {
     @location(2) @interpolate(flat) geometric_ws: vec3f,
     @location(3) @interpolate(flat) body: f32,
     @location(4) thickness_m: f32,
-    @location(5) vector_ws: vec3f,
+    @location(5) vector_ws: vec4f,
 }
 
 @vertex

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot render must fail")]
 
 mod colour;
+mod distance;
 mod environment;
 mod first_event;
 mod flags;
