@@ -29,13 +29,23 @@ pub struct Estimate {
 /// finds out whether the scene can be traced at all.
 pub(super) fn seconds(jobs: &[&Exact]) -> Result<f64, Error> {
     let Some(first) = jobs.first() else { return Ok(0.0) };
-    let mut probe = (*first).clone();
-    probe.request.view.resolution_px = [PROBE_PX, PROBE_PX];
+    // One ray finds what it takes to build the scene, which every image pays once.
+    let built = probe(first, 1)?;
+    let traced = probe(first, PROBE_PX)?;
+    let rays = f64::from(PROBE_PX * PROBE_PX);
+    let per_ray = (traced - built).max(0.0) / rays;
+    let rays: f64 = jobs.iter().map(|job| job.camera_rays()).sum();
+    Ok(per_ray * rays + built * jobs.len() as f64)
+}
+
+/// Seconds for an image of that edge.
+fn probe(job: &Exact<'_>, edge_px: u32) -> Result<f64, Error> {
+    let mut probe = job.clone();
+    probe.request.view.resolution_px = [edge_px; 2];
     probe.request.view.positions_per_axis = 1;
     let start = Instant::now();
     reference::render(probe.scene, &probe.request)?;
-    let per_ray = start.elapsed().as_secs_f64() / probe.camera_rays();
-    Ok(per_ray * jobs.iter().map(|job| job.camera_rays()).sum::<f64>())
+    Ok(start.elapsed().as_secs_f64())
 }
 
 /// Seconds that the pairs should take if each is timed for `timing_s`.
