@@ -45,7 +45,7 @@ impl Backdrop {
             return Ok(None);
         }
         let vector = crate::composition::no_vector_piece();
-        let drawn = |name, targets, camera, sky_values| {
+        let drawn = |name, targets, camera, sky_values, parts| {
             let head = [piece!("frame.wgsl"), camera];
             let mut surface_head = head.to_vec();
             surface_head.extend([vector.clone(), piece!("opaque.wgsl")]);
@@ -57,10 +57,11 @@ impl Backdrop {
         let light = target("background_light", true, "opaque_light(v)");
         let depth = target("background_depth", false, "depth_of_m(v.p_lc)");
         let camera = camera_piece(order.camera);
-        let background = drawn("background", vec![light, depth], camera, "sky_light(at.xy), 1e30")?;
+        let background =
+            drawn("background", vec![light, depth], camera, "sky_light(at.xy), 1e30", parts)?;
         let light = target("face_light", true, "opaque_light(v)");
-        let face =
-            drawn("cube", vec![light], piece!("camera_perspective.wgsl"), "sky_light(at.xy)")?;
+        let (camera, parts) = (piece!("camera_perspective.wgsl"), &order.geometry.opaque_in_cube);
+        let face = drawn("cube", vec![light], camera, "sky_light(at.xy)", parts)?;
         let size_px = match &order.scene.environment {
             Environment::Uniform(_) => UNIFORM_CUBE_PX,
             Environment::Map(map) => map.cube.size_px,
@@ -112,7 +113,7 @@ impl DrawnBackdrop {
             | TextureUsages::COPY_SRC;
         let format = wgpu::TextureFormat::Rgba32Float;
         let cube = allocator.texture("drawn cube", [edge_px, edge_px, 6], format, usage)?;
-        let maker = maker.resized([edge_px; 2]);
+        let maker = Maker::new(gpu, allocator, &view.geometry.opaque_in_cube, [edge_px; 2])?;
         let mut faces = Vec::new();
         for (index, name) in FACES.into_iter().enumerate() {
             let mut own = surroundings_shared(&resources);

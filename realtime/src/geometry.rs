@@ -18,6 +18,9 @@ pub(crate) struct Geometry {
     pub(crate) bumps: Option<Vec<Bump>>,
     /// Opaque surfaces around them.
     pub(crate) opaque: Parts,
+    /// Those of them that the cube about the middle shows: all but solids that the
+    /// middle lies in, which would hide everything else.
+    pub(crate) opaque_in_cube: Parts,
     pub(crate) paints: Vec<Paint>,
     pub(crate) lights: Vec<Light>,
     /// Sheets of cracks inside the bodies, not clipped.
@@ -73,6 +76,7 @@ impl Geometry {
             media: Vec::new(),
             bumps: None,
             opaque: Parts::new(centre),
+            opaque_in_cube: Parts::new(centre),
             paints: Vec::new(),
             lights: scene.lights.iter().map(|light| Light::new(light, centre)).collect(),
             cracks: Parts::new(centre),
@@ -173,6 +177,12 @@ impl Geometry {
         let number = self.paints.len() as u32;
         let placed = Placed { shape: &shape, world_from_object, normals: object.normals, number };
         self.opaque.add(&placed, 1e4 * self.radius_m);
+        let middle = self.centre + self.middle_lc.as_dvec3();
+        let at = world_from_object.inverse().transform_point3(middle);
+        let reach_m = self.radius_m / world_from_object.matrix3.col(0).length();
+        if !is_small_solid_about(&shape, at, reach_m) {
+            self.opaque_in_cube.add(&placed, 1e4 * self.radius_m);
+        }
     }
 }
 
@@ -184,6 +194,23 @@ fn at_most(what: &str, count: usize, most: usize) -> Result<(), Error> {
         what: format!("a scene of {count} {what} (at most {most})"),
         method: "any".to_owned(),
     })
+}
+
+/// True if a point (object space) lies in a solid that is too small to be a room
+/// around everything within `reach_m`.
+fn is_small_solid_about(shape: &Shape, at: DVec3, reach_m: f64) -> bool {
+    match shape {
+        Shape::Sphere { radius_m } => at.length() < *radius_m && *radius_m < reach_m,
+        Shape::Box { half_extent_m } => {
+            at.abs().cmplt(*half_extent_m).all() && half_extent_m.min_element() < reach_m
+        }
+        Shape::Cylinder { radius_m, half_height_m } => {
+            let [low, high] = shape.bounds();
+            let inside = at.cmpgt(low).all() && at.cmplt(high).all();
+            inside && radius_m.min(*half_height_m) < reach_m
+        }
+        Shape::Mesh(_) | Shape::Slab { .. } | Shape::HalfSpace => false,
+    }
 }
 
 /// Corners of a box; not finite where it has no bounds, and then beyond no side.

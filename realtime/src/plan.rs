@@ -228,6 +228,7 @@ impl Draft<'_> {
         self.buffer("surroundings", uniforms::Surroundings::min_size().get());
         self.environment(scene, part.request.filter);
         self.corners(&self.geometry.opaque);
+        self.corners(&self.geometry.opaque_in_cube);
         let edge = u64::from(backdrop.edge_px());
         self.buffer("drawn cube", 6 * edge * edge * 16);
         for target in &backdrop.background.targets {
@@ -239,7 +240,8 @@ impl Draft<'_> {
             self.depth_test(&backdrop.face, edge * edge);
         }
         // Both sides, for the camera and for every face.
-        self.analytic(&self.geometry.opaque, 2 * (1 + FACES.len()));
+        self.analytic(&self.geometry.opaque, 2);
+        self.analytic(&self.geometry.opaque_in_cube, 2 * FACES.len());
         self.pass("background");
         if self.geometry.changes || !part.is_timed() {
             FACES.iter().for_each(|face| self.pass(face));
@@ -302,6 +304,12 @@ fn unsupported(plan: &mut Plan, method: &Method, composition: &Composition, geom
         plan.unsupported.push(Unsupported {
             what: "cracks and enclosed air".to_owned(),
             instead: "the inside of the body is clear".to_owned(),
+        });
+    }
+    if geometry.opaque_in_cube.draws.len() < geometry.opaque.draws.len() {
+        plan.unsupported.push(Unsupported {
+            what: "an opaque solid in the middle of the bodies".to_owned(),
+            instead: "it is seen around the bodies and not through them".to_owned(),
         });
     }
     if geometry.disperses && !method.traces_colours {
