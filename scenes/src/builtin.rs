@@ -47,7 +47,7 @@ static BUILTINS: [Builtin; 22] = builtins![
     ("shell", MORE, []),
     ("bubble", MORE, []),
     ("glass-of-water", MORE, []),
-    ("ice-block", MORE, []),
+    ("ice-block", DEFAULT, []),
     ("mug", MORE, []),
     ("dispersion-ball", MORE, []),
     ("diamond", MORE, []),
