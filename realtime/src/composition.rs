@@ -10,7 +10,7 @@ use crate::surfaces::{STORED, Sides, Surfaces, Target, target};
 use crate::uniforms::Body;
 use crate::wgsl::{Piece, Shader};
 use crate::{Error, Request};
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use scenes::{Camera, Environment, LayerName, Projection, Scene};
 
 macro_rules! piece {
@@ -59,6 +59,9 @@ pub(crate) struct Composition {
     pub(crate) interior: Option<Interior>,
     /// Normals of the bodies in a cube about their middle.
     pub(crate) normals: Option<Surfaces>,
+    /// Column, row, width and height of the pixels that the bodies can reach, if
+    /// they are not all.
+    pub(crate) within_px: Option<[u32; 4]>,
 }
 
 /// How the environment is looked up.
@@ -119,6 +122,7 @@ impl Composition {
             back: back.transpose()?,
             peel: if peels { Some(Peel::new(order, &head)?) } else { None },
             normals: normals.transpose()?,
+            within_px: order.within_px(),
             interior,
             shade,
             outputs: order.outputs.to_vec(),
@@ -150,6 +154,7 @@ impl Composition {
             peel: None,
             interior: None,
             normals: None,
+            within_px: None,
             shade,
             outputs: order.outputs.to_vec(),
         })
@@ -211,6 +216,25 @@ impl Order<'_> {
         let asks = self.request.view.layers.iter().any(|l| matches!(l, LayerName::Buffer(_)));
         let shown = || self.geometry.outlines.iter().any(|corners| in_view(self.camera, corners));
         self.request.elide && !asks && !shown()
+    }
+
+    /// The rectangle of pixels around the bodies' bounds, with a pixel to spare.
+    /// None if it is the whole image, or a corner lies behind the eye.
+    fn within_px(&self) -> Option<[u32; 4]> {
+        if !self.request.elide {
+            return None;
+        }
+        let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+        for corner in self.geometry.outlines.iter().flatten() {
+            let at = projected_px(self.camera, *corner, self.resolution_px)?;
+            (low, high) = (low.min(at), high.max(at));
+        }
+        let size = DVec2::from_array(self.resolution_px.map(f64::from));
+        let low = (low.floor() - 1.0).clamp(DVec2::ZERO, size);
+        let high = (high.ceil() + 1.0).clamp(DVec2::ZERO, size);
+        let extent = high - low;
+        let partial = extent.min_element() >= 1.0 && extent != size;
+        partial.then(|| [low.x, low.y, extent.x, extent.y].map(|v| v as u32))
     }
 
     /// The bodies have the index of what is around them and take no light. What
@@ -402,4 +426,18 @@ fn in_view(camera: &Camera, corners: &[DVec3; 8]) -> bool {
         beyond.iter_mut().zip(outside).for_each(|(all, one)| *all &= one);
     }
     !beyond.contains(&true)
+}
+
+/// Continuous pixel position of a point (world space) in front of the eye.
+fn projected_px(camera: &Camera, point: DVec3, resolution_px: [u32; 2]) -> Option<DVec2> {
+    let (basis, half) = (camera.basis(), camera.half_extent());
+    let from_eye = point - camera.eye;
+    let depth_m = from_eye.dot(basis.forward);
+    let reach = match camera.projection {
+        Projection::Perspective { .. } => depth_m * half,
+        Projection::Orthographic { .. } => half,
+    };
+    let at = DVec2::new(from_eye.dot(basis.right), -from_eye.dot(basis.up)) / reach;
+    let size = DVec2::from_array(resolution_px.map(f64::from));
+    (depth_m > 0.0 && at.is_finite()).then_some((0.5 * at + 0.5) * size)
 }

@@ -96,6 +96,7 @@ impl Frame {
         }
         let bodies = &view.geometry.bodies;
         let maker = Maker::new(gpu, allocator, bodies, view.resolution_px)?;
+        let maker = maker.within(composition.within_px);
         let front = composition.front.as_ref();
         let front = front.map(|front| maker.surfaces(front, &mut resources)).transpose()?;
         let back = composition.back.as_ref();

@@ -20,6 +20,8 @@ pub(crate) struct Maker<'a> {
     parts: &'a Parts,
     corners: Option<wgpu::Buffer>,
     resolution_px: [u32; 2],
+    /// Column, row, width and height of what is drawn; all if none is given.
+    within_px: Option<[u32; 4]>,
 }
 
 /// A raster pass over all bodies.
@@ -31,6 +33,7 @@ pub(crate) struct DrawnSurfaces {
     mesh: Option<(wgpu::RenderPipeline, wgpu::BindGroup, wgpu::Buffer)>,
     analytic: Vec<(wgpu::RenderPipeline, wgpu::BindGroup)>,
     triangles: Vec<Range<u32>>,
+    within_px: Option<[u32; 4]>,
 }
 
 /// A compute pass over all pixels.
@@ -57,6 +60,9 @@ impl DrawnSurfaces {
             self.targets.iter().map(|name| (resources.view(name), clear)).collect();
         let depth = self.depth.as_ref().map(|(view, clear)| (view, *clear));
         recorder.raster(self.name, &colours, depth, |pass| {
+            if let Some([x, y, width, height]) = self.within_px {
+                pass.set_scissor_rect(x, y, width, height);
+            }
             if let Some((pipeline, bindings)) = &self.behind {
                 pass.set_pipeline(pipeline);
                 pass.set_bind_group(0, bindings, &[]);
@@ -100,12 +106,17 @@ impl<'a> Maker<'a> {
             let bytes = bytemuck::cast_slice(&parts.corners);
             Some(allocator.filled("corners", bytes, wgpu::BufferUsages::VERTEX)?)
         };
-        Ok(Self { gpu, allocator, parts, corners, resolution_px })
+        Ok(Self { gpu, allocator, parts, corners, resolution_px, within_px: None })
     }
 
     /// The same parts at another resolution.
     pub(crate) fn resized(self, resolution_px: [u32; 2]) -> Self {
-        Self { resolution_px, ..self }
+        Self { resolution_px, within_px: None, ..self }
+    }
+
+    /// Draws nothing outside a rectangle.
+    pub(crate) fn within(self, within_px: Option<[u32; 4]>) -> Self {
+        Self { within_px, ..self }
     }
 
     /// A compute pass whose entry point has the given name.
@@ -152,6 +163,7 @@ impl<'a> Maker<'a> {
             mesh: self.mesh(surfaces, resources)?,
             analytic: Vec::new(),
             triangles: Vec::new(),
+            within_px: self.within_px,
         };
         for draw in &self.parts.draws {
             match draw {

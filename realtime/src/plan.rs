@@ -125,6 +125,13 @@ fn of(
     draft.pass("shade");
     let Draft { mut plan, pixels, .. } = draft;
     leave_out(&mut plan, composition, scene, geometry, pixels);
+    if let Some([_, _, width, height]) = composition.within_px {
+        let kept = u64::from(width) * u64::from(height);
+        let share = 100.0 * (1.0 - kept as f64 / pixels as f64);
+        let reason = format!("the bodies lie within {width} x {height} pixels");
+        let what = format!("drawing {share:.0} % of the image");
+        plan.leave_out(Kind::Code, &what, &reason, 0);
+    }
     if composition.index_matched {
         let reason = "the bodies have the index of what is around them: light goes straight on";
         plan.leave_out(Kind::Code, "refraction and reflection", reason, 0);
