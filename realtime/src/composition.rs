@@ -6,7 +6,8 @@ use crate::geometry::Geometry;
 use crate::interior::Interior;
 use crate::method::{Method, Settings};
 use crate::normals;
-use crate::surfaces::{STORED, Sides, Surfaces, Target, target};
+use crate::peel::{self, Peel};
+use crate::surfaces::{Sides, Surfaces, Target, target};
 use crate::uniforms::Body;
 use crate::wgsl::{Piece, Shader};
 use crate::{Error, Request};
@@ -15,7 +16,10 @@ use scenes::{Camera, Environment, LayerName, Projection, Scene};
 
 macro_rules! piece {
     ($name:literal) => {
-        $crate::wgsl::Piece::new($name, include_str!(concat!("shaders/", $name)))
+        $crate::wgsl::Piece::new(
+            $name,
+            include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/src/shaders/", $name)),
+        )
     };
 }
 pub(crate) use piece;
@@ -37,13 +41,6 @@ const BACK: [Target; 2] = [
 
 /// Images that the shading pass can write.
 pub(crate) const OUTPUTS: [&str; 5] = ["radiance", "exit", "first", "hit2", "count"];
-
-/// The passes that collect and sort every interface of a pixel.
-pub(crate) struct Peel {
-    pub(crate) count: Surfaces,
-    pub(crate) collect: Surfaces,
-    pub(crate) sort: Shader,
-}
 
 /// A frame, as far as it can be known without a GPU.
 pub(crate) struct Composition {
@@ -113,6 +110,7 @@ impl Composition {
             .uses(&["shade"], "normal_faces")
             .then(|| normals::composed(order, &geometry.bodies));
         let peels = shade.uses(&["shade"], "slot_counts")
+            || peel::asked_for(order.request)
             || interior.as_ref().is_some_and(|interior| interior.reads("slot_counts"));
         Ok(Self {
             method: order.method,
@@ -169,22 +167,6 @@ impl Composition {
     /// True if cracks are drawn that end at the body's surface by themselves.
     pub(crate) fn draws_clipped_cracks(&self) -> bool {
         self.interior.as_ref().is_some_and(|interior| interior.clipped_sheets)
-    }
-}
-
-impl Peel {
-    fn new(order: &Order<'_>, head: &[Piece]) -> Result<Self, Error> {
-        let sort = Shader::link(&[piece!("frame.wgsl"), piece!("peel_sort.wgsl")])?;
-        let store = |name, store: Vec<Piece>| {
-            let head: Vec<Piece> = head.iter().cloned().chain(store).collect();
-            Surfaces::new(name, vec![STORED], Sides::All, &head, &order.geometry.bodies)
-        };
-        let collect = vec![order.pack(), piece!("peel_slots.wgsl")];
-        Ok(Self {
-            count: store("count layers", vec![piece!("peel_count.wgsl")])?,
-            collect: store("collect layers", collect)?,
-            sort,
-        })
     }
 }
 

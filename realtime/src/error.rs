@@ -73,6 +73,18 @@ pub enum Error {
         /// What to change.
         advice: String,
     },
+    /// Something that the adapter cannot do.
+    #[error("{what} needs {feature}, which adapter {adapter} does not have; {instead}")]
+    Feature {
+        /// What was asked for.
+        what: String,
+        /// What the adapter lacks, by wgpu's name.
+        feature: String,
+        /// Name.
+        adapter: String,
+        /// What to write instead.
+        instead: String,
+    },
     /// An image that is empty, or larger than any adapter holds.
     #[error("{0}")]
     Size(String),

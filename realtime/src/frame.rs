@@ -6,7 +6,7 @@ use crate::composition::Composition;
 use crate::geometry::Geometry;
 use crate::interior::DrawnInterior;
 use crate::normals::DrawnNormals;
-use crate::peel::Peeled;
+use crate::peel::{Counted, Peeled};
 use crate::pipelines::{DrawnSurfaces, Maker, OverPixels};
 use crate::recorder::{Allocator, Recorder};
 use crate::resources::Resources;
@@ -65,8 +65,8 @@ impl Frame {
     }
 
     /// Layers per pixel that were counted, if any are collected.
-    pub(crate) fn layers(&self) -> Option<u32> {
-        self.peel.as_ref().map(|peel| peel.capacity)
+    pub(crate) fn layers(&self) -> Option<Counted> {
+        self.peel.as_ref().map(|peel| peel.counted)
     }
 
     /// Makes pipelines and memory.

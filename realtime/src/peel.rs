@@ -1,23 +1,31 @@
 //! Every interface of every pixel, sorted: memory for the depth complexity that
 //! the view really has, counted once and not assumed.
 
-use crate::composition::Peel;
+mod composed;
+mod layer;
+mod way;
+
+pub(crate) use composed::Peel;
+pub(crate) use layer::{Part as LayerPart, asked_for};
+pub(crate) use way::Counted;
+
 use crate::frame::{self, Viewed};
 use crate::pipelines::{DrawnSurfaces, Maker, OverPixels};
 use crate::recorder::Recorder;
 use crate::resources::Resources;
 use crate::{Error, readback};
+use composed::{CLEAR_OWN, Step};
 use wgpu::{BufferUsages, TextureUsages};
-
-/// Most layers that are kept; what lies behind is flagged.
-pub(crate) const MAX_LAYERS: u32 = 32;
 
 /// The passes that fill the layers.
 pub(crate) struct Peeled {
     collect: DrawnSurfaces,
-    sort: OverPixels,
-    /// Layers per pixel that are kept.
-    pub(crate) capacity: u32,
+    draws: u32,
+    keep: Option<(&'static str, OverPixels)>,
+    finish: Option<(&'static str, OverPixels)>,
+    own: Option<&'static str>,
+    /// What was counted.
+    pub(crate) counted: Counted,
 }
 
 impl Peeled {
@@ -28,29 +36,21 @@ impl Peeled {
         view: &Viewed<'_>,
         resources: &mut Resources,
     ) -> Result<Self, Error> {
-        let pixels = view.resolution_px.map(u64::from).iter().product::<u64>();
-        let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
-        let counts = maker.allocator.buffer("slot_counts", 4 * pixels, usage)?;
-        resources.buffer("slot_counts", counts);
-        let count = maker.surfaces(&peel.count, resources)?;
-        let mut recorder = Recorder::new(maker.gpu, false);
-        recorder.clear("clear layers", resources.stored("slot_counts"));
-        count.record(&mut recorder, resources);
-        recorder.finish()?;
-        let bytes = readback::buffer_bytes(maker.gpu, resources.stored("slot_counts"), 4 * pixels)?;
-        let most = bytemuck::pod_collect_to_vec::<u8, u32>(&bytes).into_iter().max().unwrap_or(0);
-        let capacity = most.clamp(2, MAX_LAYERS);
-        let size = [view.resolution_px[0], view.resolution_px[1], capacity];
-        let usage = TextureUsages::STORAGE_BINDING | TextureUsages::TEXTURE_BINDING;
-        for name in ["slot_depths", "slot_normals"] {
-            let format = wgpu::TextureFormat::R32Uint;
-            let texture = maker.allocator.texture(name, size, format, usage)?;
-            resources.texture_as(name, texture, wgpu::TextureViewDimension::D2Array);
-        }
-        frame::set_layer_capacity(maker.gpu, view, capacity, resources);
+        peel.way.check(maker.gpu)?;
+        let most = count(maker, peel, view, resources)?;
+        let counted = Counted::new(most, peel.max_layers);
+        let own = make_room(maker, peel, view, counted.capacity, resources)?;
+        frame::set_layer_capacity(maker.gpu, view, counted.capacity, resources);
         let collect = maker.surfaces(&peel.collect, resources)?;
-        let sort = maker.over_pixels(&peel.sort, "peel_sort", resources)?;
-        Ok(Self { collect, sort, capacity })
+        let step = |step: &Option<Step>| {
+            let made = step.as_ref().map(|step| {
+                let work = maker.over_pixels(&step.shader, step.entry_point, resources)?;
+                Ok((step.pass, work))
+            });
+            made.transpose()
+        };
+        let (keep, finish) = (step(&peel.keep)?, step(&peel.finish)?);
+        Ok(Self { collect, draws: peel.way.draws(counted), keep, finish, own, counted })
     }
 
     pub(crate) fn record(
@@ -60,7 +60,73 @@ impl Peeled {
         resolution_px: [u32; 2],
     ) {
         recorder.clear("clear layers", resources.stored("slot_counts"));
-        self.collect.record(recorder, resources);
-        self.sort.record(recorder, "sort layers", resolution_px);
+        if let Some(own) = self.own {
+            recorder.clear(CLEAR_OWN, resources.stored(own));
+        }
+        for _ in 0..self.draws {
+            self.collect.record(recorder, resources);
+            if let Some((pass, keep)) = &self.keep {
+                keep.record(recorder, pass, resolution_px);
+            }
+        }
+        if let Some((pass, finish)) = &self.finish {
+            finish.record(recorder, pass, resolution_px);
+        }
     }
+}
+
+fn pixels(view: &Viewed<'_>) -> u64 {
+    view.resolution_px.map(u64::from).iter().product()
+}
+
+/// Interfaces of the pixel that has the most.
+fn count(
+    maker: &Maker<'_>,
+    peel: &Peel,
+    view: &Viewed<'_>,
+    resources: &mut Resources,
+) -> Result<u32, Error> {
+    let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
+    let bytes = 4 * pixels(view);
+    resources.buffer("slot_counts", maker.allocator.buffer("slot_counts", bytes, usage)?);
+    let count = maker.surfaces(&peel.count, resources)?;
+    let mut recorder = Recorder::new(maker.gpu, false);
+    recorder.clear("clear layers", resources.stored("slot_counts"));
+    count.record(&mut recorder, resources);
+    recorder.finish()?;
+    let counts = readback::buffer_bytes(maker.gpu, resources.stored("slot_counts"), bytes)?;
+    Ok(bytemuck::pod_collect_to_vec::<u8, u32>(&counts).into_iter().max().unwrap_or(0))
+}
+
+/// Memory for the layers, and for what only one way of peeling has.
+fn make_room(
+    maker: &Maker<'_>,
+    peel: &Peel,
+    view: &Viewed<'_>,
+    capacity: u32,
+    resources: &mut Resources,
+) -> Result<Option<&'static str>, Error> {
+    let size = [view.resolution_px[0], view.resolution_px[1], capacity];
+    let usage =
+        TextureUsages::STORAGE_BINDING | TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_SRC;
+    for name in ["slot_depths", "slot_normals"] {
+        let format = wgpu::TextureFormat::R32Uint;
+        let texture = maker.allocator.texture(name, size, format, usage)?;
+        resources.texture_as(name, texture, wgpu::TextureViewDimension::D2Array);
+    }
+    let Some((name, bytes_per_pixel)) = peel.way.own_buffer(capacity) else { return Ok(None) };
+    let needed = bytes_per_pixel * pixels(view);
+    let allowed = maker.gpu.device.limits().max_storage_buffer_binding_size;
+    if needed > allowed {
+        return Err(Error::Limit {
+            what: format!("buffer {name}"),
+            needed,
+            adapter: maker.gpu.info().name.clone(),
+            allowed,
+            advice: "write peel = slots, lower max_layers, or use fewer pixels".to_owned(),
+        });
+    }
+    let usage = BufferUsages::STORAGE | BufferUsages::COPY_DST;
+    resources.buffer(name, maker.allocator.buffer(name, needed, usage)?);
+    Ok(Some(name))
 }

@@ -327,9 +327,18 @@ fn colour_state(target: &Target, sides: Sides) -> wgpu::ColorTargetState {
         Sides::Over => Some(wgpu::BlendFactor::OneMinusSrcAlpha),
         _ => None,
     };
+    let largest = wgpu::BlendComponent {
+        src_factor: wgpu::BlendFactor::One,
+        dst_factor: wgpu::BlendFactor::One,
+        operation: wgpu::BlendOperation::Max,
+    };
     // A mask has one channel of 32 bits and is written, not summed.
     let factor = factor.filter(|_| target.channels > 1);
     let blend = factor.map(|f| wgpu::BlendState { color: add(f), alpha: add(f) });
+    let blend = match sides {
+        Sides::Largest => Some(wgpu::BlendState { color: largest, alpha: largest }),
+        _ => blend,
+    };
     wgpu::ColorTargetState { format: target.format, blend, write_mask }
 }
 
@@ -344,7 +353,9 @@ fn culled(sides: Sides) -> Option<wgpu::Face> {
 fn compare(sides: Sides) -> Option<wgpu::CompareFunction> {
     match sides {
         Sides::Back { farthest: true } | Sides::Outermost => Some(wgpu::CompareFunction::Greater),
-        Sides::Front | Sides::Back { farthest: false } => Some(wgpu::CompareFunction::Less),
+        Sides::Front | Sides::Back { farthest: false } | Sides::Nearest => {
+            Some(wgpu::CompareFunction::Less)
+        }
         // What lies beyond the far plane still covers the sky.
         Sides::Opaque => Some(wgpu::CompareFunction::LessEqual),
         _ => None,

@@ -8,6 +8,7 @@ use crate::interior::Interior;
 use crate::method::{Method, Settings};
 use crate::normals;
 use crate::parts::{Corner, Parts};
+use crate::peel::{Counted, Peel};
 use crate::render::{self, Part, Request, THICKNESS};
 use crate::surfaces::Surfaces;
 use crate::uniforms::{self, Bodies};
@@ -55,7 +56,7 @@ pub(crate) fn add(
     scene: &Scene,
     geometry: &Geometry,
     part: &Part,
-    layers: Option<u32>,
+    layers: Option<Counted>,
 ) {
     let of_frame = of(composition, scene, geometry, part, layers);
     if part.label.is_empty() {
@@ -76,7 +77,7 @@ fn of(
     scene: &Scene,
     geometry: &Geometry,
     part: &Part,
-    layers: Option<u32>,
+    layers: Option<Counted>,
 ) -> Plan {
     let [width, height] = part.resolution_px().map(u64::from);
     let mut draft = Draft { plan: Plan::default(), pixels: width * height, geometry };
@@ -113,8 +114,8 @@ fn of(
             draft.plan.leave_out(Kind::Pass, "back", reason, draft.pixels * (16 + 4));
         }
     }
-    if composition.peel.is_some() {
-        draft.layers(layers);
+    if let Some(peel) = &composition.peel {
+        draft.layers(peel, layers);
     } else {
         let reason = "the method does not look between the first and the last surface";
         draft.plan.leave_out(Kind::Pass, "layers", reason, 8 * draft.pixels * 2);
@@ -215,20 +216,11 @@ impl Draft<'_> {
         }
     }
 
-    fn layers(&mut self, layers: Option<u32>) {
-        for pass in ["clear layers", "collect layers", "sort layers"] {
-            self.pass(pass);
-        }
-        self.buffer("slot_counts", 4 * self.pixels);
-        // A raster pass must have a target, though nothing is written to it.
-        self.buffer("no colour", self.pixels);
+    fn layers(&mut self, peel: &Peel, layers: Option<Counted>) {
+        self.plan.passes.extend(peel.passes(layers));
+        self.plan.buffers.extend(peel.buffers(self.pixels, layers));
         // Both sides of every analytic body, to be counted and to be collected.
         self.analytic(&self.geometry.bodies, 4);
-        let suffix = if layers.is_some() { "" } else { " (per layer)" };
-        for name in ["slot_depths", "slot_normals"] {
-            let bytes = 4 * self.pixels * u64::from(layers.unwrap_or(1));
-            self.buffer(&format!("{name}{suffix}"), bytes);
-        }
     }
 
     fn backdrop(&mut self, backdrop: &Backdrop, scene: &Scene, part: &Part) {

@@ -4,6 +4,7 @@ use crate::composition::{Composition, Filter, Order};
 use crate::frame::{Frame, Viewed};
 use crate::geometry::Geometry;
 use crate::method::{Method, Settings};
+use crate::peel::{Counted, LayerPart};
 use crate::recorder::{Allocator, Executed, Recorder};
 use crate::{Error, Gpu, plan, readback};
 use scenes::rendering::{Pass, Provenance, Time, TimeSource};
@@ -86,6 +87,7 @@ impl Job<'_> {
             let ran = self.frame(&part)?;
             let layers_held = ran.frame.layers();
             plan::add(&mut plan, &ran.composition, self.scene, self.geometry, &part, layers_held);
+            done.layers(layers_held, &part);
             done.bytes += ran.allocator.allocated().iter().map(|buffer| buffer.bytes).sum::<u64>();
             let timed = match (part.label, self.request.timing) {
                 (TIMED, Some(timing)) => self.time(&ran.frame, timing)?,
@@ -220,6 +222,10 @@ impl Job<'_> {
             let nothing_drawn = name == "crack_mask" && ran.composition.interior.is_none();
             let values = if nothing_drawn {
                 vec![0.0; layers.pixels()]
+            } else if let (Some(part), Some(counted)) = (LayerPart::named(name), ran.frame.layers())
+            {
+                let of = (layers.pixels(), self.geometry.nested);
+                part.read(self.gpu, &ran.frame.resources, counted, of)?
             } else if name == "thickness" {
                 let (front, back) = (self.read(ran, "front_depth")?, self.read(ran, "back_depth")?);
                 back.iter().zip(&front).map(|(b, f)| f64::from((b - f).max(0.0))).collect()
@@ -262,6 +268,8 @@ impl Job<'_> {
             ("bytes", done.bytes),
             ("triangles", self.geometry.bodies.corners.len() as u64 / 3),
             ("timed_frames", done.timed_frames),
+            ("layers", done.layers),
+            ("layer_bytes", done.layer_bytes),
         ];
         Rendering {
             layers,
@@ -312,9 +320,20 @@ struct Done {
     count: u64,
     bytes: u64,
     timed_frames: u64,
+    layers: u64,
+    layer_bytes: u64,
 }
 
 impl Done {
+    /// Layers per pixel that are kept, and their bytes, in the frame that keeps
+    /// the most.
+    fn layers(&mut self, counted: Option<Counted>, part: &Part) {
+        let layers = counted.map_or(0, |counted| u64::from(counted.capacity));
+        let pixels: u64 = part.resolution_px().map(u64::from).iter().product();
+        self.layers = self.layers.max(layers);
+        self.layer_bytes = self.layer_bytes.max(8 * layers * pixels);
+    }
+
     /// `thickness_ms`: what the CPU did before the frame, and would before every
     /// other.
     fn add(
@@ -474,13 +493,18 @@ pub(crate) fn outputs(method: &Method, request: &Request) -> Result<Vec<&'static
             LayerName::First => "first",
             LayerName::Hit2 => "hit2",
             LayerName::Events | LayerName::Flags | LayerName::Path(_) => "count",
-            LayerName::Buffer(name) if BUFFERS.contains(&name.as_str()) => continue,
+            LayerName::Buffer(name)
+                if BUFFERS.contains(&name.as_str()) || LayerPart::named(name).is_some() =>
+            {
+                continue;
+            }
             other => {
                 return Err(Error::UnknownLayer {
                     method: method.id.to_owned(),
                     layer: other.to_string(),
                     available: format!(
-                        "radiance, coverage, exit, first, hit2, events, flags, path.<medium>, {}",
+                        "radiance, coverage, exit, first, hit2, events, flags, path.<medium>, {}, \
+                         layer_count, layer_depth.<n>, layer_normal.<n>, layer_facing.<n>",
                         BUFFERS.join(", ")
                     ),
                 });

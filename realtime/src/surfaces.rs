@@ -70,6 +70,10 @@ pub(crate) enum Sides {
     Opaque,
     /// Both sides; the farthest is kept.
     Outermost,
+    /// Both sides, nearest first, by linear depth to its last bit.
+    Nearest,
+    /// Both sides, without a depth test: the largest value of each channel.
+    Largest,
     /// Both sides, without a depth test: colours add up.
     Sum,
     /// Both sides, without a depth test: colours cover each other in the order
@@ -80,7 +84,10 @@ pub(crate) enum Sides {
 impl Sides {
     /// Whether a depth test decides what is seen.
     pub(crate) fn has_depth(self) -> bool {
-        matches!(self, Self::Front | Self::Back { .. } | Self::Opaque | Self::Outermost)
+        matches!(
+            self,
+            Self::Front | Self::Back { .. } | Self::Opaque | Self::Outermost | Self::Nearest
+        )
     }
 }
 
@@ -94,7 +101,7 @@ impl Surfaces {
     ) -> Result<Self, Error> {
         let link =
             |tail: Vec<Piece>| Shader::link(&head.iter().cloned().chain(tail).collect::<Vec<_>>());
-        let generated = targets_piece(&targets);
+        let generated = targets_piece(&targets, sides);
         let mesh = if parts.corners.is_empty() {
             None
         } else {
@@ -106,9 +113,8 @@ impl Surfaces {
         let analytic = formulas
             .into_iter()
             .map(|formula| {
-                let depth = sides.has_depth();
                 let pieces = vec![
-                    analytic_piece(&targets, depth),
+                    analytic_piece(&targets, sides),
                     formula_piece(formula),
                     generated.clone(),
                 ];
@@ -145,33 +151,48 @@ impl Surfaces {
              return Targets({values});\n}}\n"
         );
         let mut pieces = head.to_vec();
-        pieces.extend([piece!("sky.wgsl"), structure_piece(&self.targets)]);
+        pieces.extend([piece!("sky.wgsl"), structure_piece(&self.targets, self.sides)]);
         pieces.push(Piece::new("sky fragment", text));
         self.behind = Some(Shader::link(&pieces)?);
         Ok(self)
     }
 }
 
+/// Linear depth as a depth test keeps it, if that is what decides. The scale is
+/// a power of two: no bit is lost.
+fn exact_depth(sides: Sides) -> [&'static str; 2] {
+    match sides {
+        Sides::Nearest => {
+            ["@builtin(frag_depth) exact_depth: f32,", "depth_of_m(v.p_lc) * 0x1p-64f, "]
+        }
+        _ => ["", ""],
+    }
+}
+
 /// The structure that a pass writes.
-fn structure_piece(targets: &[Target]) -> Piece {
+fn structure_piece(targets: &[Target], sides: Sides) -> Piece {
     let field = |(i, target): (usize, &Target)| {
         format!("    @location({i}) {}: {},\n", target.field(), target.wgsl_type)
     };
     let fields: String = targets.iter().enumerate().map(field).collect();
-    Piece::new("target structure", format!("struct Targets {{\n{fields}}}\n"))
+    Piece::new(
+        "target structure",
+        format!("struct Targets {{\n{}\n{fields}}}\n", exact_depth(sides)[0]),
+    )
 }
 
-fn targets_piece(targets: &[Target]) -> Piece {
+fn targets_piece(targets: &[Target], sides: Sides) -> Piece {
     let values: Vec<_> = targets.iter().map(|target| target.value).collect();
-    let structure = structure_piece(targets).text;
+    let structure = structure_piece(targets, sides).text;
     let text = format!(
-        "{structure}fn targets(v: Varyings) -> Targets {{ return Targets({}); }}\n",
+        "{structure}fn targets(v: Varyings) -> Targets {{ return Targets({}{}); }}\n",
+        exact_depth(sides)[1],
         values.join(", ")
     );
     Piece::new("targets", text)
 }
 
-fn analytic_piece(targets: &[Target], depth: bool) -> Piece {
+fn analytic_piece(targets: &[Target], sides: Sides) -> Piece {
     let fields: String = targets
         .iter()
         .enumerate()
@@ -180,8 +201,11 @@ fn analytic_piece(targets: &[Target], depth: bool) -> Piece {
         })
         .collect();
     let values: Vec<_> = targets.iter().map(|target| format!("out.{}", target.field())).collect();
-    let (depth_field, depth_value) =
-        if depth { ("@builtin(frag_depth) depth: f32,", "clip.z / clip.w, ") } else { ("", "") };
+    let (depth_field, depth_value) = match sides {
+        Sides::Nearest => (exact_depth(sides)[0], "out.exact_depth, "),
+        sides if sides.has_depth() => ("@builtin(frag_depth) depth: f32,", "clip.z / clip.w, "),
+        _ => ("", ""),
+    };
     let text = include_str!("shaders/raster_analytic.wgsl")
         .replace("ANALYTIC_DEPTH_FIELD", depth_field)
         .replace("ANALYTIC_DEPTH_VALUE", depth_value)

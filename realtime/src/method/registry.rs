@@ -190,7 +190,15 @@ pub static METHODS: &[Method] = &[
         title: "march through peeled layers, as published",
         about: "Walks from layer to layer by number, with the repairs without which the printed listing does not run. Wrong where the ray crosses an interface sideways: walls of shells, bubbles. Beside the exact image a cup is right down to its base, where the chain breaks; side faces that should mirror show one flat colour.",
         bibtex: MA_BIBTEX,
-        parameters: &[PROBE_DIV, BINARY_STEPS, MAX_STEPS, MAX_EVENTS, MULTI_FRESNEL],
+        parameters: &[
+            PROBE_DIV,
+            BINARY_STEPS,
+            MAX_STEPS,
+            MAX_EVENTS,
+            MULTI_FRESNEL,
+            PEEL,
+            MAX_LAYERS,
+        ],
         traces_colours: true,
         pieces: Pieces::Built(|settings| {
             Ok(vec![march_constants(settings, false), file!("multi_paper.wgsl")])
@@ -202,7 +210,16 @@ pub static METHODS: &[Method] = &[
         title: "march through peeled layers, medium by winding",
         about: "As multi-paper, but an interface is where the medium changes, counted from the layers in front. First order in the resolution of the layers; rays that turn sideways find no layer to hit. Beside the exact image everything seen through front and back is right; what should mirror totally is one flat colour or grain, and reflections on the outside are missing.",
         bibtex: MA_BIBTEX,
-        parameters: &[PROBE_DIV, BINARY_STEPS, MAX_STEPS, MAX_EVENTS, TIR, MULTI_FRESNEL],
+        parameters: &[
+            PROBE_DIV,
+            BINARY_STEPS,
+            MAX_STEPS,
+            MAX_EVENTS,
+            TIR,
+            MULTI_FRESNEL,
+            PEEL,
+            MAX_LAYERS,
+        ],
         traces_colours: true,
         pieces: Pieces::Built(|settings| {
             Ok(vec![march_constants(settings, true), file!("multi.wgsl")])
@@ -218,6 +235,19 @@ const BINARY_STEPS: Parameter =
 const MAX_STEPS: Parameter =
     number("max_steps", 64.0, 1.0, 4096.0, "", "steps between two interfaces");
 const MAX_EVENTS: Parameter = number("max_events", 12.0, 1.0, 64.0, "", "interfaces of one chain");
+const PEEL: Parameter = choice(
+    "peel",
+    &["slots", "everitt", "dual", "cascade"],
+    "how layers are found: by atomic slots and a sort; one per pass (coincident ones are one); nearest and farthest per pass (the same; needs 32-bit float blending; of too many, keeps both ends); by an atomic cascade (needs 64-bit atomics; of too many, keeps the nearest)",
+);
+const MAX_LAYERS: Parameter = number(
+    "max_layers",
+    32.0,
+    2.0,
+    32.0,
+    "",
+    "most layers per pixel; where there are more, a flag",
+);
 const TIR: Parameter = choice(
     "tir",
     &["clamp", "reflect"],

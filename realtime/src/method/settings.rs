@@ -53,6 +53,14 @@ impl Settings {
         }
     }
 
+    /// A number that only some methods have.
+    pub(crate) fn number_if_any(&self, name: &str) -> Option<f64> {
+        match self.0.get(name) {
+            Some(Value::Number(value)) => Some(*value),
+            _ => None,
+        }
+    }
+
     /// A word.
     ///
     /// # Panics

@@ -8,12 +8,21 @@
 
 const EMPTY_DEPTH: f32 = 1e30;
 
+var<private> layers_overflowed: bool = false;
+
 fn layer_count(pixel: vec2i) -> u32 {
     if (!in_image(pixel)) {
         return 0u;
     }
     let place = u32(pixel.y) * u32(frame.resolution_px.x) + u32(pixel.x);
-    return min(slot_counts[place], frame.layer_capacity);
+    let counted = slot_counts[place];
+    layers_overflowed |= counted > frame.layer_capacity;
+    return min(counted, frame.layer_capacity);
+}
+
+// Raised once a pixel was looked at that has more interfaces than are kept.
+fn layer_flags() -> u32 {
+    return select(0u, FLAG_OVERFLOW, layers_overflowed);
 }
 
 fn layer_depth_m(pixel: vec2i, layer: u32) -> f32 {

@@ -188,5 +188,5 @@ fn trace(pixel: vec2i, v_ws: vec3f, surface: Surface) -> Trace {
     let entered = enter(v_ws, surface, frame.eta_outside / eta_body(surface.body));
     let chain = march(surface.p_lc, entered.d_ws, first_medium(surface.body));
     return Trace(chain.d_ws, entered.d_ws, chain.hit2_lc, chain.path_m, chain.events,
-        entered.flags | chain.flags);
+        entered.flags | chain.flags | layer_flags());
 }

@@ -89,5 +89,5 @@ fn trace(pixel: vec2i, v_ws: vec3f, surface: Surface) -> Trace {
     let entered = enter(v_ws, surface, frame.eta_outside / eta_inside);
     let chain = march_paper(surface.p_lc, entered.d_ws, eta_inside, frame.eta_outside);
     return Trace(chain.d_ws, entered.d_ws, chain.hit2_lc, chain.path_m, chain.events,
-        entered.flags | chain.flags);
+        entered.flags | chain.flags | layer_flags());
 }

@@ -8,12 +8,9 @@
 
 fn store_interface(v: Varyings) -> vec4f {
     let pixel = vec2u(v.clip.xy);
-    let v_ws = view_direction_ws(v.clip.xy);
     let slot = atomicAdd(&slot_counts[pixel.y * u32(frame.resolution_px.x) + pixel.x], 1u);
     if (slot < frame.layer_capacity) {
-        let body = u32(v.body + 0.5) - 1u;
-        let packed = pack_interface(
-            surface_normal_ws(v), dot(v_ws, v.geometric_ws) < 0.0, bodies[body].solid);
+        let packed = packed_interface(v);
         textureStore(slot_depths, pixel, slot, vec4u(bitcast<u32>(depth_of_m(v.p_lc)), 0u, 0u, 0u));
         textureStore(slot_normals, pixel, slot, vec4u(packed, 0u, 0u, 0u));
     }
