@@ -133,14 +133,14 @@ fn analytic_bodies_have_the_same_layers() {
     let mut scene = scene(&[ball(1.0), ball(0.6), Shape::Box { half_extent_m }], DVec3::ZERO);
     scene.camera.projection = Projection::Orthographic { height_m: 2.3 };
     for (priority, object) in scene.objects.iter_mut().enumerate() {
-        let medium = MediumId(usize::from(priority != 1));
+        let medium = MediumId(u16::from(priority != 1));
         object.surface = Surface::Dielectric { medium, priority: priority as i32 };
     }
     let slots = found(&scene, &[], 6);
     assert_eq!(data(&slots, "layer_count").into_iter().fold(0.0, f64::max), 6.0);
     for way in &WAYS[1..] {
         let other = found(&scene, &[("peel", way)], 6);
-        assert_eq!(bits(&slots, "layer"), bits(&other, "layer"), "{way}");
+        assert!(bits(&slots, "layer") == bits(&other, "layer"), "{way}");
     }
 }
 
@@ -151,7 +151,7 @@ fn layers_are_sorted_and_the_same_in_every_run() {
         let first = found(&scene, &[("peel", way)], 4);
         for _ in 0..4 {
             let again = found(&scene, &[("peel", way)], 4);
-            assert_eq!(bits(&first, ""), bits(&again, ""), "{way}");
+            assert!(bits(&first, "") == bits(&again, ""), "{way}");
         }
         let depths = [0, 1, 2, 3].map(|n| data(&first, &format!("layer_depth.{n}")));
         for (pixel, count) in data(&first, "layer_count").into_iter().enumerate() {
@@ -170,7 +170,7 @@ fn half_a_pixel_gives_other_bits() {
     // A pixel at this distance is 2 tan(19 deg) 4.6 m / 256 = 12 mm.
     let moved = found(&scene(&[mesh("shell")], DVec3::new(0.006, 0.0, 0.0)), &[], 4);
     for part in ["layer_count", "layer_depth", "layer_normal"] {
-        assert_ne!(bits(&still, part), bits(&moved, part), "{part}");
+        assert!(bits(&still, part) != bits(&moved, part), "{part}");
     }
 }
 

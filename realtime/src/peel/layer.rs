@@ -69,17 +69,15 @@ impl Part {
             texels.copy_from_slice(&all[layer as usize * pixels..][..pixels]);
         }
         let bits = if nested { 13 } else { 15 };
+        let channels = if matches!(self, Self::Normal(_)) { 3 } else { 1 };
         let values = held.zip(texels).flat_map(|(held, texel)| {
-            let (there, packed) = (f64::from(u8::from(layer < held)), texel.to_bits());
-            let vector = match self {
-                Self::Normal(_) => normal_ws(packed, bits).map(|x| x * there).to_vec(),
-                Self::Facing(_) => {
-                    vec![there * (f64::from(packed >> (2 * bits) & 1) * 2.0 - 1.0)]
-                }
-                _ if layer < held => vec![f64::from(texel)],
-                _ => vec![0.0],
-            };
-            vector
+            let packed = texel.to_bits();
+            match self {
+                _ if layer >= held => vec![0.0; channels],
+                Self::Normal(_) => normal_ws(packed, bits).to_vec(),
+                Self::Facing(_) => vec![f64::from(packed >> (2 * bits) & 1) * 2.0 - 1.0],
+                _ => vec![f64::from(texel)],
+            }
         });
         Ok(values.collect())
     }
