@@ -1,5 +1,6 @@
 //! Whether a scene is one convex body, so that a ray that has left it is free.
 
+use crate::triangle::Triangle;
 use crate::world::World;
 use glam::DVec3;
 use scenes::Shape;
@@ -14,8 +15,20 @@ impl World {
         }
         match self.analytic.as_slice() {
             [analytic] => !matches!(analytic.shape.as_ref(), Shape::Mesh(_)),
-            _ => self.surface_is_convex(),
+            _ => !self.has_a_dent() && self.surface_is_convex(),
         }
+    }
+
+    /// Finds most dents without memory: a triangle that clearly stands before
+    /// the plane of another one, among those that lie together in the tree.
+    fn has_a_dent(&self) -> bool {
+        let clearly = 1e-9 * (self.bounds[1] - self.bounds[0]).max_element();
+        let before = |plane: &Triangle, triangle: &Triangle| {
+            let (normal, from) = (plane.normal(), plane.corner(0));
+            (0..3).any(|i| (triangle.corner(i) - from).dot(normal) > clearly)
+        };
+        let mut pairs = self.tree.triangles().zip(self.tree.triangles().skip(1));
+        pairs.any(|(a, b)| before(&a, &b) || before(&b, &a))
     }
 
     /// Every edge bends outwards, and every line pierces the surface twice at

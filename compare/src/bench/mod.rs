@@ -4,6 +4,7 @@
 mod clock;
 mod embree;
 mod error;
+mod footprint;
 mod input;
 mod speed;
 mod statistics;
@@ -11,6 +12,7 @@ mod statistics;
 pub use clock::Taken;
 pub use embree::{Program, Robust, compiler};
 pub use error::BenchError;
+pub use footprint::{Footprint, footprint};
 pub use input::{BEYOND, ETA, IMAGE_PX, Input, inputs};
 pub use speed::Speed;
 pub use statistics::{FEWEST, Interval, median_interval, ratio_interval};

@@ -18,6 +18,11 @@ pub(super) struct Args {
     /// Also measure another program at the same work
     #[arg(long, value_enum, value_name = "PROGRAM")]
     against: Option<Other>,
+    /// Instead, build a ball with bumps of at least N triangles, and say how long that takes and
+    /// how much memory
+    #[arg(long, value_name = "N", conflicts_with_all = ["against", "repetitions"],
+        value_parser = clap::value_parser!(u32).range(20..=100_000_000))]
+    triangles: Option<u32>,
     /// How often everything is measured, in turns
     #[arg(long, value_name = "N", default_value_t = 9,
         value_parser = clap::value_parser!(u16).range(bench::FEWEST as i64..=1000))]
@@ -44,6 +49,9 @@ struct Machine<'a> {
 }
 
 pub(super) fn run(args: &Args, output: Output) -> Result<Status, Error> {
+    if let Some(triangles) = args.triangles {
+        return footprint(triangles, output);
+    }
     // What is missing is found out before anything is measured.
     let embree = (args.against == Some(Other::Embree))
         .then(|| Program::compile(&bench::compiler()))
@@ -78,6 +86,25 @@ pub(super) fn run(args: &Args, output: Output) -> Result<Status, Error> {
         measured.iter().try_for_each(|one| output.object("snell.bench.rays/1", one))?;
     } else {
         output.line(&text(&machine, &measured))?;
+    }
+    Ok(Status::Done)
+}
+
+fn footprint(triangles: u32, output: Output) -> Result<Status, Error> {
+    let progress = Progress::new("building");
+    let found = bench::footprint(triangles)?;
+    drop(progress);
+    if output.json {
+        output.object("snell.bench.footprint/1", &found)?;
+    } else {
+        output.line(&format!(
+            "{} triangles: mesh {:.1} s, build {:.1} s; {:.0} B a triangle while tracing, {:.0} at most",
+            found.triangles,
+            found.mesh_s,
+            found.build_s,
+            found.resident_bytes_per_triangle,
+            found.peak_bytes_per_triangle
+        ))?;
     }
     Ok(Status::Done)
 }
