@@ -23,6 +23,7 @@ pub(crate) struct Line {
 }
 
 impl Line {
+    #[inline]
     pub(crate) fn new(origin: DVec3, direction: DVec3) -> Self {
         let size = direction.abs();
         let z = if size.x >= size.y && size.x >= size.z {
@@ -51,10 +52,10 @@ impl Line {
     /// the plane through it. Depends on the vertex alone, so every triangle
     /// around a vertex sees the same bits.
     #[inline(always)]
-    pub(crate) fn see(&self, vertex: &[f64; 3]) -> (DVec2, f64) {
+    pub(crate) fn see(&self, vertex: impl Fn(usize) -> f64) -> (DVec2, f64) {
         let [x, y, z] = self.axes;
-        let depth = vertex[z] - self.origin[z];
-        let across = DVec2::new(vertex[x] - self.origin[x], vertex[y] - self.origin[y]);
+        let depth = vertex(z) - self.origin[z];
+        let across = DVec2::new(vertex(x) - self.origin[x], vertex(y) - self.origin[y]);
         (across - self.shear * depth, depth * self.inverse_z)
     }
 

@@ -24,14 +24,13 @@ pub(crate) struct Pierce {
     pub(crate) entering: bool,
 }
 
-impl Triangle {
-    /// The passage of a line through this triangle, if there is one. Along a
-    /// full line a closed mesh is entered exactly as often as it is left.
+impl Pierce {
+    /// The passage of a line through a triangle, coordinate by corner and axis.
     #[inline(always)]
-    pub(crate) fn pierce(&self, line: &Line) -> Option<Pierce> {
-        let (a, a_t) = line.see(&self.corners[0]);
-        let (b, b_t) = line.see(&self.corners[1]);
-        let (c, c_t) = line.see(&self.corners[2]);
+    pub(crate) fn new(line: &Line, at: impl Fn(usize, usize) -> f64) -> Option<Self> {
+        let (a, a_t) = line.see(|axis| at(0, axis));
+        let (b, b_t) = line.see(|axis| at(1, axis));
+        let (c, c_t) = line.see(|axis| at(2, axis));
         let [mut u, mut v, mut w] = [cross(c, b), cross(a, c), cross(b, a)];
         if u == 0.0 || v == 0.0 || w == 0.0 {
             [u, v, w] = [resolve(c, b), resolve(a, c), resolve(b, a)];
@@ -46,7 +45,16 @@ impl Triangle {
         }
         let weights = [u / sum, v / sum, w / sum];
         let t = weights[0] * a_t + weights[1] * b_t + weights[2] * c_t;
-        Some(Pierce { t, weights, entering: !negative })
+        Some(Self { t, weights, entering: !negative })
+    }
+}
+
+impl Triangle {
+    /// The passage of a line through this triangle, if there is one. Along a
+    /// full line a closed mesh is entered exactly as often as it is left.
+    #[cfg(test)]
+    pub(crate) fn pierce(&self, line: &Line) -> Option<Pierce> {
+        Pierce::new(line, |corner, axis| self.corners[corner][axis])
     }
 
     pub(crate) fn corner(&self, i: usize) -> DVec3 {

@@ -30,7 +30,7 @@ pub struct Measured {
     pub triangles: usize,
     /// How many.
     pub rays: usize,
-    /// Ours, the slowest instructions first.
+    /// Ours, the oldest instructions first.
     pub speeds: Vec<Speed>,
     /// Embree's, if it was asked for.
     pub embree: Vec<Beside>,
@@ -45,7 +45,7 @@ pub struct Beside {
     pub robust: bool,
     /// Million rays per second of processor time.
     pub mrays_per_cpu_s: Interval,
-    /// Our speed with the best instructions on one thread, of its: above 1 we
+    /// Our speed with the instructions that renderings use on one thread, of its: above 1 we
     /// are faster.
     pub ratio: Interval,
     /// Share of the rays for which both name the same triangle, or none.

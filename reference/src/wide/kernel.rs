@@ -1,8 +1,9 @@
 //! The two inner loops, and how they are done without vector instructions.
 //!
-//! Kernels only propose: [`Triangle::pierce`](crate::triangle::Triangle::pierce)
-//! decides. All of them do the same operations in the same order, so they
-//! propose the same.
+//! Kernels only propose: [`Pierce::new`](crate::triangle::Pierce::new)
+//! decides. For triangles all of them do the same operations in the same order,
+//! so they propose the same; for boxes they may round differently, because what
+//! is answered does not depend on boxes.
 
 use super::node::{Block, LANES, Node, WIDTH};
 use super::ray::BoxRay;

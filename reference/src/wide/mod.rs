@@ -83,7 +83,7 @@ impl Tree {
         let root = costs.part(0);
         let mut todo = Vec::new();
         self.root = Some(match root {
-            Part::Block(index) => self.block(&costs, index, triangles),
+            Part::Block(indices) => self.block(&costs, indices, triangles),
             Part::Node(index) => {
                 self.nodes.push(Node::EMPTY);
                 todo.push((index, 0));
@@ -93,15 +93,15 @@ impl Tree {
         while let Some((index, mine)) = todo.pop() {
             let first = todo.len();
             for (i, part) in costs.children(index).into_iter().enumerate() {
-                let (of, child) = match part {
-                    Part::Block(of) => (of, self.block(&costs, of, triangles)),
+                let bounds = costs.bounds(&part);
+                let child = match part {
+                    Part::Block(of) => self.block(&costs, of, triangles),
                     Part::Node(of) => {
                         self.nodes.push(Node::EMPTY);
                         todo.push((of, self.nodes.len() - 1));
-                        (of, Child::node(self.nodes.len() - 1))
+                        Child::node(self.nodes.len() - 1)
                     }
                 };
-                let bounds = bvh.nodes[of].aabb();
                 let node: &mut Node = &mut self.nodes[mine];
                 for axis in 0..3 {
                     node.planes[axis][0][i] = bounds.min[axis];
@@ -115,10 +115,10 @@ impl Tree {
         self.blocks.shrink_to_fit();
     }
 
-    fn block(&mut self, costs: &Costs<'_>, index: usize, triangles: &[Triangle]) -> Child {
+    fn block(&mut self, costs: &Costs<'_>, indices: Vec<usize>, triangles: &[Triangle]) -> Child {
         let mut block = Block::EMPTY;
         let mut list = Vec::with_capacity(LANES);
-        costs.triangles(index, &mut list);
+        costs.triangles(indices, &mut list);
         for (lane, triangle) in list.into_iter().enumerate() {
             block.set(lane, &triangles[triangle as usize]);
         }

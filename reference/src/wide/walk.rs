@@ -170,10 +170,9 @@ fn each_pierced(
     while candidates != 0 {
         let lane = candidates.trailing_zeros() as usize % LANES;
         candidates &= candidates - 1;
-        let triangle = block.triangle(lane);
-        if let Some(pierce) = triangle.pierce(line) {
+        if let Some(pierce) = Pierce::new(line, |corner, axis| block.corners[corner][axis][lane]) {
             let slot = (index * LANES + lane) as u32;
-            each(TriangleHit { pierce, id: triangle.id, body: triangle.body, slot });
+            each(TriangleHit { pierce, id: block.ids[lane], body: block.bodies[lane], slot });
         }
     }
 }
