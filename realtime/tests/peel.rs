@@ -65,6 +65,7 @@ fn request(scene: &Scene, parameters: &[(&str, &str)], layers: Vec<LayerName>) -
         parameters: parameters.collect(),
         filter: Filter::Manual,
         timing: None,
+        elide: true,
     }
 }
 
