@@ -21,6 +21,8 @@ pub(crate) struct Interior {
     pub(crate) clip: Option<[Surfaces; 2]>,
     pub(crate) cracks: Option<Surfaces>,
     pub(crate) air: Option<Surfaces>,
+    /// Cracks drawn over the body's back normals.
+    pub(crate) onto_back: Option<Surfaces>,
     /// The cracks' sheets end at the body's surface by themselves.
     pub(crate) clipped_sheets: bool,
     pub(crate) resolution_px: [u32; 2],
@@ -79,11 +81,21 @@ impl Interior {
                 Target { format: TextureFormat::Rgba8Unorm, ..target("air", true, "air_light(v)") };
             Surfaces::new("air", vec![colour], Sides::Over, &head, &geometry.air)
         });
+        let bends = order.settings.number("a") > 0.0;
+        let onto_back = (bends && order.settings.word("crack_normals") == "back").then(|| {
+            let mut head = head.to_vec();
+            head.extend(depth_clip(["front_depth", "back_depth"], FLOAT_DEPTH.to_owned()));
+            head.push(piece!("crack_normals.wgsl"));
+            let normal = vec![target("back_normal", true, "crack_normal(v)")];
+            Surfaces::new("cracks onto normals", normal, Sides::Onto, &head, &geometry.cracks)
+        });
+        let onto_back = onto_back.filter(|_| !geometry.cracks.is_empty());
         let clip_passes = (clip == Clip::Depth && !shared).then(|| depth_passes(order, head));
         Ok(Some(Self {
             clip: clip_passes.transpose()?,
             cracks: cracks.transpose()?,
             air: air.transpose()?,
+            onto_back: onto_back.transpose()?,
             clipped_sheets: clip == Clip::Mesh,
             resolution_px,
         }))
@@ -91,7 +103,7 @@ impl Interior {
 
     /// True if some pass reads what is called `name`.
     pub(crate) fn reads(&self, name: &str) -> bool {
-        let drawn = [self.cracks.as_ref(), self.air.as_ref()];
+        let drawn = [self.cracks.as_ref(), self.air.as_ref(), self.onto_back.as_ref()];
         let mut shaders = drawn.into_iter().flatten().filter_map(|s| s.mesh.as_ref());
         shaders.any(|shader| shader.uses(&["mesh_fragment"], name))
     }
@@ -144,41 +156,43 @@ fn cracks_constants(settings: &Settings) -> Piece {
     Piece::new("crack constants", text)
 }
 
-fn clip_pieces(order: &Order<'_>, clip: Clip, [front, back]: [&str; 2]) -> Vec<Piece> {
+fn clip_pieces(order: &Order<'_>, clip: Clip, names: [&str; 2]) -> Vec<Piece> {
     match clip {
         Clip::Mesh | Clip::None => vec![piece!("clip_none.wgsl")],
         Clip::Layers => vec![order.pack(), piece!("layers.wgsl"), piece!("clip_layers.wgsl")],
-        Clip::Depth => {
-            let text = include_str!("shaders/clip_depth.wgsl");
-            let text = text.replace("CLIP_FRONT", front).replace("CLIP_BACK", back);
-            vec![Piece::new("clip_depth.wgsl", text), stored_depth_piece(order)]
-        }
+        Clip::Depth => depth_clip(names, stored_depth(order)),
     }
 }
 
+/// The clip by two depth images, and how they keep depths.
+fn depth_clip([front, back]: [&str; 2], stored_depth: String) -> Vec<Piece> {
+    let text = include_str!("shaders/clip_depth.wgsl");
+    let text = text.replace("CLIP_FRONT", front).replace("CLIP_BACK", back);
+    vec![Piece::new("clip_depth.wgsl", text), Piece::new("stored depth", stored_depth)]
+}
+
+/// Off by two steps of a 32-bit number.
+const FLOAT_DEPTH: &str = "fn stored_depth_m(z_m: f32) -> f32 { return z_m; }
+fn depth_error_m(z_m: f32) -> f32 { return 2.4e-7 * abs(z_m); }
+";
+
 /// How a depth is kept, and how far it may then be off.
-fn stored_depth_piece(order: &Order<'_>) -> Piece {
-    let text = if order.settings.word("depth_format") == "float" {
-        // Two steps of a 32-bit number.
-        "fn stored_depth_m(z_m: f32) -> f32 { return z_m; }\n\
-         fn depth_error_m(z_m: f32) -> f32 { return 2.4e-7 * abs(z_m); }\n"
-            .to_owned()
+fn stored_depth(order: &Order<'_>) -> String {
+    if order.settings.word("depth_format") == "float" {
+        return FLOAT_DEPTH.to_owned();
+    }
+    let planes = if order.settings.word("depth_planes") == "fitted" {
+        "vec2f(max(dot(-frame.eye_lc, frame.forward_ws) - frame.radius_m, 1e-3 * frame.radius_m), \
+         dot(-frame.eye_lc, frame.forward_ws) + frame.radius_m)"
     } else {
-        let planes = if order.settings.word("depth_planes") == "fitted" {
-            "vec2f(max(dot(-frame.eye_lc, frame.forward_ws) - frame.radius_m, 1e-3 * frame.radius_m), \
-             dot(-frame.eye_lc, frame.forward_ws) + frame.radius_m)"
-        } else {
-            "vec2f(0.1, 1000.0)"
-        };
-        let text = include_str!("shaders/stored_depth_16.wgsl");
-        text.replace("DEPTH_PLANES", planes)
+        "vec2f(0.1, 1000.0)"
     };
-    Piece::new("stored depth", text)
+    include_str!("shaders/stored_depth_16.wgsl").replace("DEPTH_PLANES", planes)
 }
 
 fn depth_passes(order: &Order<'_>, head: &[Piece]) -> Result<[Surfaces; 2], Error> {
     let mut head = head.to_vec();
-    head.push(stored_depth_piece(order));
+    head.push(Piece::new("stored depth", stored_depth(order)));
     let bodies = &order.geometry.bodies;
     let value = "stored_depth_m(depth_of_m(v.p_lc))";
     let front = vec![target("clip_front", false, value)];
@@ -193,6 +207,7 @@ fn depth_passes(order: &Order<'_>, head: &[Piece]) -> Result<[Surfaces; 2], Erro
 pub(crate) struct DrawnInterior {
     passes: Vec<DrawnSurfaces>,
     resources: Resources,
+    onto_back: Option<(DrawnSurfaces, Resources)>,
 }
 
 impl DrawnInterior {
@@ -243,10 +258,26 @@ impl DrawnInterior {
         for name in ["cracks", "crack_mask", "air"] {
             resources.share(shown, name);
         }
-        Ok(Self { passes, resources })
+        let onto_back = match &interior.onto_back {
+            Some(surfaces) => {
+                let mut own = Resources::default();
+                for name in ["frame", "bodies", "bumps", "front_depth", "back_depth", "back_normal"]
+                {
+                    shown.share(&mut own, name);
+                }
+                let cracks = &view.geometry.cracks;
+                let maker = Maker::new(bodies.gpu, allocator, cracks, view.resolution_px)?;
+                Some((maker.surfaces(surfaces, &mut own)?, own))
+            }
+            None => None,
+        };
+        Ok(Self { passes, resources, onto_back })
     }
 
     pub(crate) fn record(&self, recorder: &mut Recorder<'_>) {
+        if let Some((pass, own)) = &self.onto_back {
+            pass.record(recorder, own);
+        }
         for pass in &self.passes {
             pass.record(recorder, &self.resources);
         }

@@ -34,6 +34,7 @@ pub(crate) struct DrawnSurfaces {
     analytic: Vec<(wgpu::RenderPipeline, wgpu::BindGroup)>,
     triangles: Vec<Range<u32>>,
     within_px: Option<[u32; 4]>,
+    keeps: bool,
 }
 
 /// A compute pass over all pixels.
@@ -55,7 +56,8 @@ impl OverPixels {
 
 impl DrawnSurfaces {
     pub(crate) fn record(&self, recorder: &mut Recorder<'_>, resources: &Resources) {
-        let clear = wgpu::Color::TRANSPARENT;
+        // What is drawn onto another pass's image keeps that.
+        let clear = (!self.keeps).then_some(wgpu::Color::TRANSPARENT);
         let colours: Vec<_> =
             self.targets.iter().map(|name| (resources.view(name), clear)).collect();
         let depth = self.depth.as_ref().map(|(view, clear)| (view, *clear));
@@ -164,6 +166,7 @@ impl<'a> Maker<'a> {
             analytic: Vec::new(),
             triangles: Vec::new(),
             within_px: self.within_px,
+            keeps: surfaces.sides == Sides::Onto,
         };
         for draw in &self.parts.draws {
             match draw {

@@ -273,6 +273,10 @@ impl Draft<'_> {
             self.buffer("frame of the inside", uniforms::Frame::min_size().get());
         }
         self.buffer("interior", uniforms::Interior::min_size().get());
+        if let Some(surfaces) = &interior.onto_back {
+            self.corners(&self.geometry.cracks);
+            self.pass(surfaces.name);
+        }
         for surfaces in interior.passes() {
             for target in &surfaces.targets {
                 self.buffer(target.name, target.bytes(pixels));

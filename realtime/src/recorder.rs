@@ -143,7 +143,7 @@ impl<'g> Recorder<'g> {
     pub(crate) fn raster(
         &mut self,
         name: &str,
-        colours: &[(&wgpu::TextureView, wgpu::Color)],
+        colours: &[(&wgpu::TextureView, Option<wgpu::Color>)],
         depth: Option<(&wgpu::TextureView, f32)>,
         draw: impl FnOnce(&mut wgpu::RenderPass<'_>),
     ) {
@@ -156,7 +156,7 @@ impl<'g> Recorder<'g> {
                     depth_slice: None,
                     resolve_target: None,
                     ops: wgpu::Operations {
-                        load: wgpu::LoadOp::Clear(*clear),
+                        load: clear.map_or(wgpu::LoadOp::Load, wgpu::LoadOp::Clear),
                         store: wgpu::StoreOp::Store,
                     },
                 })

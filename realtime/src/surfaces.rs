@@ -79,6 +79,8 @@ pub(crate) enum Sides {
     /// Both sides, without a depth test: colours cover each other in the order
     /// in which they are drawn.
     Over,
+    /// Both sides, without a depth test, written over what another pass left.
+    Onto,
 }
 
 impl Sides {

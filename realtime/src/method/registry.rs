@@ -116,6 +116,11 @@ pub static METHODS: &[Method] = &[
                 &["depth", "layers", "mesh", "none"],
                 "what ends cracks and air at the body's surface: its depth interval as published, all its layers, sheets cut beforehand, or nothing",
             ),
+            choice(
+                "crack_normals",
+                &["no", "back"],
+                "whether cracks also replace the back normals that bend the light",
+            ),
             choice("depth_format", &["float", "16-bit"], "how the depth interval is stored"),
             choice(
                 "depth_planes",

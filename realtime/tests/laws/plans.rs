@@ -167,6 +167,25 @@ fn every_method_executes_its_plan() {
     }
 }
 
+/// Cracks in the back normals: one pass more, and the light bends at them.
+#[test]
+fn cracks_may_bend_light() {
+    let mut scene = everything();
+    scene.camera.resolution_px = [64, 64];
+    let asked = |words: &[(&str, &str)]| with(request(&scene, "blended", &many_layers()), words);
+    let [without, with_cracks] = [asked(&[]), asked(&[("crack_normals", "back")])];
+    let [a, b] = [&without, &with_cracks].map(|request| {
+        let rendering = realtime::render(&GPU, &scene, request).unwrap();
+        assert!(kept(&realtime::plan(&scene, request).unwrap(), &rendering));
+        rendering
+    });
+    assert_eq!(a.passes.len() + 1, b.passes.len());
+    let exits = |r: &Rendering| vectors(&r.layers, LayerName::Exit);
+    let bent = exits(&a).iter().zip(exits(&b)).filter(|(a, b)| angle(**a, *b) > 1e-3).count();
+    let body = exits(&a).iter().filter(|exit| **exit != DVec3::ZERO).count();
+    assert!(bent > body / 20 && bent < body, "{bent} of {body}");
+}
+
 /// The comparison can fail: a plan with a pass or a byte too few is not kept.
 #[test]
 fn a_pass_or_a_byte_too_many_is_noticed() {
