@@ -138,3 +138,146 @@ fn a_comparison_without_a_compiler_ends_with_status_2_and_names_the_packages() {
     let ran = snell("bench --reference --repetitions 3");
     assert_eq!((ran.status, ran.answer.as_str()), (Some(2), ""));
 }
+
+/// The layers of an image file and the channels of each.
+fn layers_of(path: &str) -> Vec<(String, usize)> {
+    let layers = scenes::image::read(std::path::Path::new(path)).unwrap();
+    layers.list.iter().map(|layer| (layer.name.to_string(), layer.channels)).collect()
+}
+
+#[test]
+fn every_layer_of_the_reference_can_be_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let image = folder.path().join("paths.exr").to_string_lossy().into_owned();
+    let help = done("reference --help");
+    let common = "--resolution 8";
+    let in_paths = "radiance,variance,samples,truncated,coverage,bounce2,bounce.3,exit,\
+                    exit_position,first,hit2,events,total_reflections,flags,crack_mask,path.vacuum";
+    done(&format!(
+        "reference ball -o {image} {common} --estimator paths --batches 2 --samples 1 --layers {in_paths}"
+    ));
+    let found = layers_of(&image);
+    assert_eq!(found.len(), in_paths.split(',').count(), "{found:?}");
+    assert!(found.contains(&("bounce3".to_owned(), 3)), "{found:?}");
+    let image = folder.path().join("stokes.exr").to_string_lossy().into_owned();
+    done(&format!("reference ball -o {image} {common} --polarised --layers stokes"));
+    assert_eq!(layers_of(&image), [("stokes".to_owned(), 3)]);
+    for (name, _) in reference::LAYERS {
+        assert!(help.contains(&format!("\n  {name} ")), "{name} is not in the help");
+        let stem = name.split('<').next().unwrap();
+        assert!(in_paths.contains(stem) || stem == "stokes", "{name} is not tested here");
+    }
+    let ran = snell(&format!("reference ball -o {image} {common} --layers path.lead"));
+    assert_eq!(ran.status, Some(2));
+    assert!(ran.message.contains("path.<MEDIUM>"), "{}", ran.message);
+}
+
+/// Help for the exact renderer stands in groups, rendering and planning alike.
+#[test]
+fn options_of_the_reference_are_grouped() {
+    for command in ["reference", "plan"] {
+        let help = done(&format!("{command} --help"));
+        for (heading, option) in [
+            ("View:", "--layers"),
+            ("Light transport:", "--estimator"),
+            ("Physics taken away:", "--max-interfaces"),
+        ] {
+            let place = |what: &str| help.find(what).unwrap_or_else(|| panic!("{what}: {help}"));
+            assert!(place(heading) < place(&format!("  {option}")), "{help}");
+        }
+    }
+}
+
+#[test]
+fn the_seed_and_not_the_threads_decides_an_image_of_random_paths() {
+    let folder = tempfile::tempdir().unwrap();
+    let image = |name: &str, options: &str| {
+        let path = folder.path().join(name);
+        done(&format!(
+            "reference ice-cube -o {} --resolution 16 --estimator paths --batches 2 --samples 2 \
+             --layers radiance,variance {options}",
+            path.display()
+        ));
+        scenes::image::read(&path).unwrap()
+    };
+    let first = image("a.exr", "--seed 7 --threads 1");
+    assert_eq!(first, image("b.exr", "--seed 7 --threads 3"));
+    assert_ne!(first, image("c.exr", "--seed 8 --threads 1"));
+}
+
+#[test]
+fn a_plan_of_the_reference_tells_what_the_options_take_away() {
+    let plan = |options: &str| objects(&format!("plan ball --reference {options}"))[0].to_string();
+    let whole = plan("");
+    for (options, words) in [
+        ("--max-interfaces 2", "interfaces after the first 2"),
+        ("--no-internal-reflection", "reflections inside a body that are not total"),
+        ("--fresnel schlick", "Schlick's reflectance"),
+        ("--fresnel cubic", "cubic reflectance"),
+        ("--max-events 9", "paths of at most 9 events"),
+        ("--estimator paths", "Paths"),
+        ("--layers exit", "positions per pixel"),
+        ("--level r0", "one chain per position"),
+    ] {
+        assert!(plan(options).contains(words), "{options}: {}", plan(options));
+        assert!(!whole.contains(words), "{words}: {whole}");
+    }
+    assert!(
+        whole.contains("\"polarisation\"")
+            && !plan("--polarised").contains("\"polarisation\",\"kind\"")
+    );
+}
+
+#[test]
+fn options_that_mean_nothing_together_are_refused_and_leave_no_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let image = folder.path().join("no.exr");
+    for (options, hint) in [
+        ("--seed 1", "--estimator paths"),
+        ("--estimator tree --batches 4", "--estimator paths"),
+        ("--estimator paths --cut 1e-3", "--estimator tree"),
+        ("--estimator paths --positions 2", "--estimator tree"),
+        ("--estimator paths --polarised", "tree"),
+        ("--estimator paths --batches 0", "at least 1"),
+        ("--estimator paths --batches 1 --layers variance", "2 batches"),
+        ("--layers variance", "random paths"),
+        ("--threads 0", "1..=1024"),
+        ("--cut 2", "0 to 1"),
+    ] {
+        let ran = snell(&format!("reference ball -o {} --resolution 4 {options}", image.display()));
+        assert_eq!(ran.status, Some(2), "{options}");
+        assert!(ran.message.contains(hint), "{options}: {}", ran.message);
+        assert!(!image.exists(), "{options}");
+    }
+    let ran = snell("plan ball --method undeviated --max-interfaces 2");
+    assert_eq!(ran.status, Some(2), "{}", ran.message);
+}
+
+/// What is taken away changes the image, so no option is lost on its way.
+#[test]
+fn each_restriction_reaches_the_renderer() {
+    let folder = tempfile::tempdir().unwrap();
+    let image = |name: &str, options: &str| {
+        let path = folder.path().join(name).with_extension("exr");
+        done(&format!(
+            "reference ball -o {} --resolution 12 --positions 1 {options}",
+            path.display()
+        ));
+        scenes::image::read(&path).unwrap()
+    };
+    let whole = image("whole", "");
+    let options = [
+        "--max-interfaces 1",
+        "--max-events 2",
+        "--no-internal-reflection",
+        "--fresnel schlick",
+        "--fresnel cubic",
+        "--level r0",
+        "--lat-long",
+        "--cut 0.1",
+        "--polarised",
+    ];
+    for (index, option) in options.iter().enumerate() {
+        assert_ne!(whole, image(&index.to_string(), option), "{option}");
+    }
+}

@@ -61,6 +61,9 @@ pub enum Error {
         /// What is wrong with it.
         why: String,
     },
+    /// Options that contradict each other.
+    #[error("{0}")]
+    Usage(String),
     /// Standard output is gone or full.
     #[error("the answer cannot be written to standard output: {0}")]
     Output(std::io::Error),

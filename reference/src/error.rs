@@ -34,7 +34,8 @@ pub enum Error {
     TooManyMedia(usize),
     /// An unknown or not yet computed layer.
     #[error(
-        "the reference has no layer \"{0}\" at this level\nthe layers are listed by `snell methods`"
+        "the reference has no layer \"{0}\" for this scene and request\nit has {list}",
+        list = crate::layers::LAYERS.map(|(name, _)| name).join(", ")
     )]
     Layer(String),
     /// Variance of something that is not an estimate.

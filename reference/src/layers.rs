@@ -15,6 +15,26 @@ const CRACK_MASK: &str = "crack_mask";
 /// image's horizontal axis.
 const STOKES: &str = "stokes";
 
+/// Every layer that can be asked for, and what it shows.
+pub const LAYERS: [(&str, &str); 16] = [
+    ("radiance", "linear radiance, mean over the pixel"),
+    ("variance", "variance of that mean; random paths in 2 batches or more"),
+    ("samples", "camera rays per pixel"),
+    ("truncated", "weight of the paths that were cut off, mean over the pixel"),
+    ("coverage", "share of the pixel's positions whose ray meets an object"),
+    ("bounce<N>", "radiance that arrives after exactly N interfaces, such as bounce2; not with R0"),
+    ("stokes", "Stokes parameters Q, U, V of the d line; polarised, not with R0"),
+    ("exit", "unit direction in which the chain through the pixel's centre leaves"),
+    ("exit_position", "where the chain leaves, metres"),
+    ("first", "unit direction after the chain's first event"),
+    ("hit2", "where the chain meets its second interface, metres"),
+    ("events", "interfaces that the chain meets"),
+    ("total_reflections", "how many of them reflect it totally"),
+    ("flags", "bits, told by `snell methods`"),
+    ("path.<MEDIUM>", "metres that the chain travels in a medium, by its name in the scene"),
+    ("crack_mask", "1 where the straight ray through the centre meets a crack in a solid"),
+];
+
 fn is_mask(name: &LayerName) -> bool {
     matches!(name, LayerName::Buffer(name) if name == CRACK_MASK)
 }

@@ -41,6 +41,7 @@ mod world;
 
 pub use error::Error;
 pub use frame::{Watch, render, render_watched};
+pub use layers::LAYERS;
 pub use plan::plan;
 pub use request::{EnvironmentLookup, Estimator, Fresnel, Level, Request, Restriction};
 pub use triangles::{Hit, Triangles};

@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::flight::Counters;
 use crate::layers::Columns;
-use crate::request::{EnvironmentLookup, Estimator, Level, Request};
+use crate::request::{EnvironmentLookup, Estimator, Fresnel, Level, Request, Restriction};
 use crate::world::World;
 use scenes::plan::{Buffer, Kind};
 use scenes::{Environment, Plan, Scene};
@@ -51,6 +51,7 @@ impl Variant {
         plan.features = vec![format!("{:?}", request.level), format!("{:?}", request.estimator)];
         self.media(&mut plan);
         self.rest(&mut plan, scene, world, request, columns);
+        restricted(&mut plan, request);
         plan
     }
 
@@ -120,6 +121,36 @@ impl Variant {
         if matches!(request.estimator, Estimator::Tree { .. }) {
             plan.leave_out(Kind::State, "random numbers", "the tree of paths is followed whole", 0);
         }
+    }
+}
+
+/// Physics that the request takes away.
+fn restricted(plan: &mut Plan, request: &Request) {
+    let Restriction { max_interfaces, max_events, internal_reflection, fresnel } =
+        request.restriction;
+    let asked = "the request takes it away";
+    if let Some(most) = max_interfaces {
+        plan.features.push(format!("environment after {most} interfaces"));
+        plan.leave_out(Kind::Code, &format!("interfaces after the first {most}"), asked, 0);
+    }
+    if max_events != Restriction::default().max_events {
+        plan.features.push(format!("paths of at most {max_events} events"));
+    }
+    if !internal_reflection {
+        plan.leave_out(Kind::Code, "reflections inside a body that are not total", asked, 0);
+    }
+    match fresnel {
+        Fresnel::Exact => {}
+        Fresnel::Schlick => plan.features.push("Schlick's reflectance".to_owned()),
+        Fresnel::Cubic => plan.features.push("cubic reflectance".to_owned()),
+    }
+    if request.level == Level::R0 {
+        let chain = "one chain per position has no weights";
+        plan.leave_out(Kind::Code, "reflectances", chain, 0);
+    }
+    if request.level != Level::R2 {
+        let surroundings = "opaque surroundings count from level R2 on";
+        plan.leave_out(Kind::Code, "shading of opaque surfaces", surroundings, 0);
     }
 }
 

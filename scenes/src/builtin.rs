@@ -1,6 +1,6 @@
 //! Scenes that are part of the program, so that an installed one has them.
 
-use crate::{Error, Scene, format};
+use crate::{Error, Scene, format, import};
 use std::path::{Path, PathBuf};
 
 /// A scene that is part of the program.
@@ -88,6 +88,10 @@ pub fn find(name_or_path: &str) -> Result<Scene, Error> {
     let looks_like_a_path = path.extension().is_some() || path.components().count() > 1;
     if built_in || !(looks_like_a_path || path.exists()) {
         return builtin(name_or_path);
+    }
+    let is = |wanted: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(wanted));
+    if is("gltf") || is("glb") {
+        return Ok(import::load(path)?);
     }
     format::load(path)
 }

@@ -109,15 +109,19 @@ impl From<&str> for LayerName {
             "truncated" => Self::Truncated,
             "variance" => Self::Variance,
             "samples" => Self::Samples,
-            other => match (other.strip_prefix("path."), other.strip_prefix("bounce")) {
+            other => match (other.strip_prefix("path."), bounce_order(other)) {
                 (Some(medium), _) => Self::Path(medium.to_owned()),
-                (None, Some(order)) if order.parse::<u16>().is_ok() => {
-                    Self::Bounce(order.parse().unwrap_or(0))
-                }
+                (None, Some(order)) => Self::Bounce(order),
                 _ => Self::Buffer(other.to_owned()),
             },
         }
     }
+}
+
+/// The order in `bounce2`, or in `bounce.2` as it would stand beside `path.<medium>`.
+fn bounce_order(name: &str) -> Option<u16> {
+    let order = name.strip_prefix("bounce")?;
+    order.strip_prefix('.').unwrap_or(order).parse().ok()
 }
 
 /// One layer: `channels` values per pixel, rows from the top, interleaved.

@@ -5,6 +5,7 @@ mod adapter;
 mod adapters;
 mod bench;
 mod compare;
+mod exact;
 mod export;
 mod methods;
 mod output;

@@ -1,10 +1,12 @@
 //! `snell plan SCENE`: what will run, what is left out, and why.
 
+use super::exact::ExactArgs;
 use super::output::{Output, table};
 use super::realtime::parameter;
+use super::view::ViewArgs;
 use super::{Status, scene};
 use crate::Error;
-use scenes::{LayerName, Plan, View};
+use scenes::Plan;
 use serde::Serialize;
 
 /// List the passes and buffers that a scene needs, and what is left out and why
@@ -14,7 +16,8 @@ pub(super) struct Args {
     /// Built-in name (see `snell scenes`) or scene file
     scene: String,
     /// Method to plan, or FILE.wgsl with one of your own
-    #[arg(short, long, value_name = "METHOD", group = "renderer")]
+    #[arg(short, long, value_name = "METHOD", group = "renderer",
+        conflicts_with_all = ["ExactArgs", "RestrictionArgs"])]
     method: Option<String>,
     /// Parameter of the method, such as a=0.33; repeat for several
     #[arg(short, long = "param", value_name = "NAME=VALUE", value_parser = parameter,
@@ -23,6 +26,10 @@ pub(super) struct Args {
     /// Plan the exact renderer
     #[arg(long, group = "renderer")]
     reference: bool,
+    #[command(flatten)]
+    view: ViewArgs,
+    #[command(flatten)]
+    exact: ExactArgs,
 }
 
 /// The answer for programs.
@@ -37,12 +44,7 @@ struct Answer<'a> {
 
 pub(super) fn run(args: &Args, output: Output) -> Result<Status, Error> {
     let scene = scene(&args.scene)?;
-    let view = View {
-        resolution_px: scene.camera.resolution_px,
-        positions_per_axis: 4,
-        frame: 0,
-        layers: vec![LayerName::Radiance],
-    };
+    let view = args.view.view(&scene);
     let (renderer, plan) = match &args.method {
         Some(method) => {
             let parameters = args.parameters.iter().cloned().collect();
@@ -52,7 +54,7 @@ pub(super) fn run(args: &Args, output: Output) -> Result<Status, Error> {
             (request.method.clone(), realtime::plan(&scene, &request)?)
         }
         None => {
-            let request = reference::Request::new(view, reference::Level::R1);
+            let request = args.exact.request(view, args.view.positions_given())?;
             ("reference".to_owned(), reference::plan(&scene, &request)?)
         }
     };

@@ -2,7 +2,7 @@
 
 use super::adapter::AdapterArg;
 use super::output::Output;
-use super::view::ViewArgs;
+use super::view::{ImageArgs, ViewArgs};
 use super::{Status, scene};
 use crate::Error;
 use realtime::{Filter, Request, Timing};
@@ -31,13 +31,15 @@ pub(super) struct Args {
     #[command(flatten)]
     view: ViewArgs,
     #[command(flatten)]
+    image: ImageArgs,
+    #[command(flatten)]
     adapter: AdapterArg,
 }
 
 pub(super) fn run(args: &Args, output: Output) -> Result<Status, Error> {
     let scene = scene(&args.scene)?;
     let request = Request {
-        view: args.view.view(&scene),
+        view: args.image.shown(args.view.view(&scene)),
         method: args.method.clone(),
         parameters: args.parameters.iter().cloned().collect(),
         filter: if args.hardware_filter { Filter::Hardware } else { Filter::Manual },
@@ -46,7 +48,7 @@ pub(super) fn run(args: &Args, output: Output) -> Result<Status, Error> {
     };
     let gpu = args.adapter.open()?;
     let rendering = realtime::render(&gpu, &scene, &request)?;
-    args.view.finish(&rendering, output)
+    args.image.finish(&rendering, output)
 }
 
 /// Reads `NAME=VALUE`.

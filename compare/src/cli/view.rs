@@ -9,25 +9,32 @@ use scenes::{LayerName, Layers, Rendering, Scene, View};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
-/// What is rendered, and where the image goes.
+/// What is rendered.
 #[derive(clap::Args, Debug)]
+#[command(next_help_heading = "View")]
 pub(super) struct ViewArgs {
-    /// Image to write: .exr holds every layer, .png shows the radiance
-    #[arg(short, long, value_name = "FILE", value_parser = image_path)]
-    out: PathBuf,
-    /// Layers to compute, separated by commas [default: radiance]
+    /// Layers to compute, separated by commas; `snell methods` lists those of each method
+    /// [default: radiance]
     #[arg(long, value_delimiter = ',', value_name = "LAYER")]
     layers: Vec<String>,
     /// Width x height in pixels, such as 640x360 [default: the scene's]
     #[arg(long, value_name = "WxH", value_parser = resolution)]
     resolution: Option<[u32; 2]>,
-    /// K: radiance is the mean over K x K positions in each pixel
-    #[arg(long, value_name = "K", default_value_t = 4,
-        value_parser = clap::value_parser!(u32).range(1..=64))]
-    positions: u32,
+    /// K: radiance is the mean over K x K positions in each pixel [default: 4]
+    #[arg(long, value_name = "K", value_parser = clap::value_parser!(u32).range(1..=64))]
+    positions: Option<u32>,
     /// Frame of the scene's sequence; 0 is the still
     #[arg(long, value_name = "N", default_value_t = 0)]
     frame: u32,
+}
+
+/// Where the image goes.
+#[derive(clap::Args, Debug)]
+#[command(next_help_heading = "Image")]
+pub(super) struct ImageArgs {
+    /// Image to write: .exr holds every layer, .png shows the radiance
+    #[arg(short, long, value_name = "FILE", value_parser = image_path)]
+    out: PathBuf,
     /// Exposure of a .png in stops [default: chosen from the image]
     #[arg(long, value_name = "STOPS", allow_negative_numbers = true)]
     exposure: Option<f64>,
@@ -47,30 +54,53 @@ impl ViewArgs {
     /// The view that is asked for.
     pub(super) fn view(&self, scene: &Scene) -> View {
         let mut layers: Vec<LayerName> =
-            self.layers.iter().map(|name| LayerName::from(name.as_str())).collect();
-        if layers.is_empty() || (is_png(&self.out) && !layers.contains(&LayerName::Radiance)) {
-            layers.insert(0, LayerName::Radiance);
+            self.layers.iter().map(|name| LayerName::from(name.trim())).collect();
+        if layers.is_empty() {
+            layers.push(LayerName::Radiance);
         }
         View {
             resolution_px: self.resolution.unwrap_or(scene.camera.resolution_px),
-            positions_per_axis: self.positions,
+            positions_per_axis: self.positions.unwrap_or(4),
             frame: self.frame,
             layers,
         }
     }
 
+    /// True if the number of positions was written and not left to the default.
+    pub(super) fn positions_given(&self) -> bool {
+        self.positions.is_some()
+    }
+}
+
+impl ImageArgs {
+    /// The view with what the image shows among its layers.
+    pub(super) fn shown(&self, mut view: View) -> View {
+        if is_png(&self.out) && !view.layers.contains(&LayerName::Radiance) {
+            view.layers.insert(0, LayerName::Radiance);
+        }
+        view
+    }
+
+    /// Writes the image.
+    pub(super) fn write(&self, layers: &Layers) -> Result<(), Error> {
+        if is_png(&self.out) {
+            return self.write_png(layers);
+        }
+        file::make_folder_of(&self.out)?;
+        Ok(scenes::image::write_exr(&self.out, layers)?)
+    }
+
     /// Writes the image and answers with what the rendering tells.
     pub(super) fn finish(&self, rendering: &Rendering, output: Output) -> Result<Status, Error> {
-        let layers = &rendering.layers;
-        if is_png(&self.out) {
-            self.write_png(layers)?;
-        } else {
-            file::make_folder_of(&self.out)?;
-            scenes::image::write_exr(&self.out, layers)?;
-        }
+        self.write(&rendering.layers)?;
+        self.answer(rendering, output)
+    }
+
+    /// Answers with what the rendering tells, once its image is written.
+    pub(super) fn answer(&self, rendering: &Rendering, output: Output) -> Result<Status, Error> {
         let answer = Answer {
             image: &self.out,
-            resolution_px: layers.resolution_px,
+            resolution_px: rendering.layers.resolution_px,
             passes: &rendering.passes,
             counters: &rendering.counters,
             provenance: &rendering.provenance,

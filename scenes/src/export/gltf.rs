@@ -1,6 +1,7 @@
 //! glTF 2.0: index, transmission, volume and dispersion by the Khronos material
 //! extensions. The environment has no place in the core format; it is written
-//! beside the scene as `environment.exr` and named in the scene's extras.
+//! beside the scene as `environment.exr` and named in the scene's extras, as is
+//! the size of the image.
 
 use super::surface::{Indexed, indexed, unknown_shape};
 use super::{ExportError, Format, write_error, write_text};
@@ -21,7 +22,7 @@ pub(super) fn write(scene: &Scene, folder: &Path) -> Result<&'static str, Export
                            "KHR_materials_volume", "KHR_materials_dispersion"],
         "scene": 0,
         "scenes": [{ "name": scene.title, "nodes": (0..nodes.len()).collect::<Vec<_>>(),
-                     "extras": environment(scene, folder)? }],
+                     "extras": extras(scene, folder)? }],
         "nodes": nodes,
         "cameras": [camera(scene)],
         "meshes": file.meshes,
@@ -51,6 +52,12 @@ fn camera(scene: &Scene) -> Value {
         Projection::Orthographic { .. } => json!({ "type": "orthographic", "orthographic": {
             "xmag": half.x, "ymag": half.y, "znear": 0.0, "zfar": 1000.0 } }),
     }
+}
+
+fn extras(scene: &Scene, folder: &Path) -> Result<Value, ExportError> {
+    let mut extras = environment(scene, folder)?;
+    extras["resolutionPx"] = json!(scene.camera.resolution_px);
+    Ok(extras)
 }
 
 fn environment(scene: &Scene, folder: &Path) -> Result<Value, ExportError> {

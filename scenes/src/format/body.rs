@@ -1,9 +1,12 @@
 //! A scene around one mesh file: the camera sees all of it.
 
+use super::document::EnvironmentText;
 use super::{Error, parse};
-use crate::{Camera, Eta, Projection, Scene};
+use crate::environment::Map;
+use crate::{Camera, Environment, Eta, Projection, Scene};
 use glam::DVec3;
 use std::path::Path;
+use std::sync::Arc;
 
 /// Full vertical field of view, degrees.
 const FIELD_OF_VIEW_DEG: f64 = 32.0;
@@ -16,6 +19,16 @@ const MARGIN: f64 = 1.03;
 const SKY: &str = "sky = { zenith = [0.16, 0.34, 0.78], horizon = [0.86, 0.90, 0.96], \
     ground = [0.10, 0.09, 0.08], sun = { direction = [0.55, 0.65, -0.52], radius_deg = 3.0, \
     radiance = [220.0, 205.0, 180.0] }, checker = { colour = [0.62, 0.56, 0.48], size = 0.7 } }";
+
+/// The sky of built-in scenes, for scenes of other formats.
+pub(crate) fn default_sky() -> Environment {
+    #[expect(clippy::unwrap_used, reason = "the text is a constant")]
+    let text: EnvironmentText = toml::from_str(SKY).unwrap();
+    let sky = text.sky.map(|sky| sky.get_ref().sky());
+    sky.map_or(Environment::Uniform(DVec3::ONE), |sky| {
+        Environment::Map(Arc::new(Map::from_sky(&sky, 0.0, None)))
+    })
+}
 
 impl Scene {
     /// A dielectric body from an OBJ file, under a map or, without one, under

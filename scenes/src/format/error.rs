@@ -17,7 +17,7 @@ pub enum Error {
     },
     /// A scene file cannot be read.
     #[error(
-        "cannot read the scene {}: {source}\nname a .toml file or a built-in scene (`snell scenes` lists them)",
+        "cannot read the scene {}: {source}\nname a .toml, .gltf or .glb file or a built-in scene (`snell scenes` lists them)",
         path.display()
     )]
     Read {
@@ -28,7 +28,7 @@ pub enum Error {
     },
     /// No built-in scene and no file has that name.
     #[error(
-        "no built-in scene is called \"{name}\" and there is no such file\nwrite one of {known}, or the path of a .toml file"
+        "no built-in scene is called \"{name}\" and there is no such file\nwrite one of {known}, or the path of a .toml, .gltf or .glb file"
     )]
     UnknownScene {
         /// What was asked for.
@@ -50,6 +50,9 @@ pub enum Error {
     /// A mesh file given on its own is wrong.
     #[error(transparent)]
     Mesh(#[from] MeshError),
+    /// A glTF file cannot be shown.
+    #[error(transparent)]
+    Gltf(#[from] crate::import::ImportError),
     /// An image file given on its own is wrong.
     #[error(transparent)]
     Image(#[from] crate::image::Error),

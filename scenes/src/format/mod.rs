@@ -20,6 +20,7 @@ mod sky;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use body::default_sky;
 pub use error::{Error, MeshError, Place, Problem};
 
 use crate::Scene;

@@ -1,0 +1,148 @@
+//! Arguments of the exact renderer: the same for rendering and for planning.
+
+use crate::Error;
+use clap::ValueEnum;
+use reference::{EnvironmentLookup, Estimator, Fresnel, Level, Request, Restriction};
+use scenes::View;
+
+/// How light is followed.
+#[derive(clap::Args, Debug)]
+#[command(next_help_heading = "Light transport")]
+pub(super) struct ExactArgs {
+    /// How much light transport counts
+    #[arg(long, value_enum, default_value_t = LevelName::R1)]
+    level: LevelName,
+    /// How the sum over paths is formed
+    #[arg(long, value_enum, default_value_t = EstimatorName::Tree)]
+    estimator: EstimatorName,
+    /// Tree: weight, of 1 per camera ray, below which a branch is cut [default: 1e-4]
+    #[arg(long, value_name = "WEIGHT")]
+    cut: Option<f64>,
+    /// Paths: independent estimates, from which the layer `variance` is taken [default: 16]
+    #[arg(long, value_name = "N")]
+    batches: Option<u32>,
+    /// Paths: camera rays per pixel and batch [default: 16]
+    #[arg(long, value_name = "N")]
+    samples: Option<u32>,
+    /// Paths: seed; the same seed gives the same image [default: 0]
+    #[arg(long, value_name = "SEED")]
+    seed: Option<u64>,
+    /// Follow the polarisation of light through every event (tree only); the layer `stokes` shows it
+    #[arg(long)]
+    polarised: bool,
+    /// Look the environment up in its lat-long original, to agree with other renderers, and not in
+    /// the cube that the GPU uses
+    #[arg(long)]
+    lat_long: bool,
+    #[command(flatten)]
+    restriction: RestrictionArgs,
+}
+
+/// Physics that is taken away on purpose, to see what an approximation lacks.
+#[derive(clap::Args, Debug)]
+#[command(next_help_heading = "Physics taken away")]
+struct RestrictionArgs {
+    /// After this many interfaces light comes straight from the environment [default: no limit]
+    #[arg(long, value_name = "N")]
+    max_interfaces: Option<u32>,
+    /// Paths with more events are dropped; the layer `truncated` counts them [default: 20000]
+    #[arg(long, value_name = "N")]
+    max_events: Option<u32>,
+    /// Drop reflections off the inside of a body that are not total
+    #[arg(long)]
+    no_internal_reflection: bool,
+    /// How much an interface reflects
+    #[arg(long, value_enum, default_value_t = FresnelName::Exact)]
+    fresnel: FresnelName,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum LevelName {
+    /// One chain of refractions, reflected only when totally reflected, no Fresnel weights
+    R0,
+    /// The full tree of refractions and reflections
+    R1,
+    /// The full tree and opaque surroundings
+    R2,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum EstimatorName {
+    /// Both continuations of every event, at K x K positions in each pixel
+    Tree,
+    /// Unbiased random paths at random positions, with their variance
+    Paths,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum FresnelName {
+    /// Fresnel's equations
+    Exact,
+    /// Schlick's polynomial
+    Schlick,
+    /// (1 - cos θ)³
+    Cubic,
+}
+
+impl ExactArgs {
+    /// The request for a view. `positions_given`: the user wrote how many
+    /// positions a pixel has, which random paths do not.
+    pub(super) fn request(&self, view: View, positions_given: bool) -> Result<Request, Error> {
+        let level = match self.level {
+            LevelName::R0 => Level::R0,
+            LevelName::R1 => Level::R1,
+            LevelName::R2 => Level::R2,
+        };
+        let environment_lookup =
+            if self.lat_long { EnvironmentLookup::LatLong } else { EnvironmentLookup::Cube };
+        Ok(Request {
+            estimator: self.estimator(positions_given)?,
+            environment_lookup,
+            restriction: self.restriction.restriction(),
+            polarised: self.polarised,
+            ..Request::new(view, level)
+        })
+    }
+
+    fn estimator(&self, positions_given: bool) -> Result<Estimator, Error> {
+        let paths = self.estimator == EstimatorName::Paths;
+        let of_the_other = [
+            ("--cut", self.cut.is_some(), paths),
+            ("--positions", positions_given, paths),
+            ("--batches", self.batches.is_some(), !paths),
+            ("--samples", self.samples.is_some(), !paths),
+            ("--seed", self.seed.is_some(), !paths),
+        ];
+        if let Some((flag, ..)) = of_the_other.iter().find(|(_, given, other)| *given && *other) {
+            let (this, that) = if paths { ("paths", "tree") } else { ("tree", "paths") };
+            return Err(Error::Usage(format!(
+                "{flag} means nothing to --estimator {this}\nleave it out, or write --estimator {that}"
+            )));
+        }
+        Ok(if paths {
+            Estimator::Paths {
+                batches: self.batches.unwrap_or(16),
+                samples: self.samples.unwrap_or(16),
+                seed: self.seed.unwrap_or(0),
+            }
+        } else {
+            Estimator::Tree { cut: self.cut.unwrap_or(1e-4) }
+        })
+    }
+}
+
+impl RestrictionArgs {
+    fn restriction(&self) -> Restriction {
+        let all = Restriction::default();
+        Restriction {
+            max_interfaces: self.max_interfaces,
+            max_events: self.max_events.unwrap_or(all.max_events),
+            internal_reflection: !self.no_internal_reflection,
+            fresnel: match self.fresnel {
+                FresnelName::Exact => Fresnel::Exact,
+                FresnelName::Schlick => Fresnel::Schlick,
+                FresnelName::Cubic => Fresnel::Cubic,
+            },
+        }
+    }
+}
