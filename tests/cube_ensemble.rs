@@ -2,6 +2,7 @@
 //! from them on average.
 
 #![allow(clippy::unwrap_used, reason = "a failing test may panic")]
+#![allow(clippy::print_stderr, reason = "prints the means it finds")]
 
 use glam::DVec3;
 use reference::{Level, render};
@@ -161,7 +162,7 @@ fn methods_miss_a_cube_by_the_known_means() {
         for ((method, words, known), sums) in rows.iter().zip(sums) {
             for (kind, [sum, count]) in sums.into_iter().enumerate() {
                 let (mean, known) = (sum / count, known[column][kind]);
-                println!("{eta} {method} {words:?} {kind}: {mean:.3}, known {known:.3}");
+                eprintln!("{eta} {method} {words:?} {kind}: {mean:.3}, known {known:.3}");
                 if (mean - known).abs() > 0.1 {
                     far.push(format!("{eta} {method} {words:?} {kind}: {mean:.3} for {known:.3}"));
                 }
