@@ -182,7 +182,7 @@ impl World {
         if let Shape::Mesh(mesh) = shape.as_ref() {
             bake(mesh, body.world_from_object, body.first_id, number, triangles);
             if normals == Normals::Smooth {
-                body.smooth = Some(smooth_normals(mesh, normal_from_object));
+                body.smooth = smooth_normals(shape, normal_from_object);
             }
         } else {
             self.analytic.push(Analytic {
