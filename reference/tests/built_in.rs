@@ -41,9 +41,9 @@ const CLOSED: [&str; 20] = [
 /// Furnace at one resolution and cut; prints what was dropped.
 fn all_vanish(edge_px: u32, cut: f64, etas: &[f64]) {
     for name in CLOSED {
-        let mut dropped = Vec::new();
-        for normals in [Normals::Flat, Normals::Smooth] {
-            for eta in etas {
+        for eta in etas {
+            let mut dropped = Vec::new();
+            for normals in [Normals::Flat, Normals::Smooth] {
                 let body = object(Shape::Mesh(builtin(name).unwrap()), 1, normals);
                 let scene = furnace(vec![body], *eta);
                 let layers = [LayerName::Radiance, LayerName::Truncated];
@@ -60,13 +60,13 @@ fn all_vanish(edge_px: u32, cut: f64, etas: &[f64]) {
                 assert_eq!(rendering.counters["left_inside"], 0, "{case}");
                 dropped.extend(truncated.iter().copied());
             }
+            dropped.sort_by(f64::total_cmp);
+            let at = |share: f64| dropped[((dropped.len() - 1) as f64 * share) as usize];
+            let [half, most, nearly, all] = [0.5, 0.99, 0.999, 1.0].map(at);
+            eprintln!(
+                "{name} {eta}: dropped {half:.1e} (50 %) {most:.1e} (99 %) {nearly:.1e} (99.9 %) {all:.1e}"
+            );
         }
-        dropped.sort_by(f64::total_cmp);
-        let at = |share: f64| dropped[((dropped.len() - 1) as f64 * share) as usize];
-        let [half, most, nearly, all] = [0.5, 0.99, 0.999, 1.0].map(at);
-        eprintln!(
-            "{name}: dropped {half:.1e} (50 %) {most:.1e} (99 %) {nearly:.1e} (99.9 %) {all:.1e}"
-        );
     }
 }
 
