@@ -273,7 +273,8 @@ fn shade_pieces(order: &Order<'_>) -> Result<Vec<Piece>, Error> {
         [piece!("eta_single.wgsl"), piece!("colours_together.wgsl")]
     });
     pieces.push(piece!("first_event.wgsl"));
-    pieces.push(if geometry.absorbs { piece!("absorb.wgsl") } else { piece!("absorb_none.wgsl") });
+    let absorbs = geometry.absorbs || keep_all;
+    pieces.push(if absorbs { piece!("absorb.wgsl") } else { piece!("absorb_none.wgsl") });
     pieces.extend(Interior::shown(order));
     pieces.push(outputs_piece(order.outputs));
     if order.is_index_matched() {

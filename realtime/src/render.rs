@@ -26,8 +26,11 @@ pub struct Request {
     pub filter: Filter,
     /// How long to measure, if at all.
     pub timing: Option<Timing>,
-    /// Leave out what the scene does not need. False runs every pass and all code
-    /// with neutral input: to see that the image is the same and what is saved.
+    /// Leave out what the scene does not need. False keeps, with neutral input, the
+    /// surface buffers that nobody reads, stored geometric normals, absorption,
+    /// traces of red and blue, refraction at equal indices, bodies and pixels
+    /// outside the image: to see that the image is the same and what is saved.
+    /// Cracks, air, bumps and surroundings that a scene does not have stay out.
     pub elide: bool,
 }
 

@@ -25,7 +25,8 @@ pub(super) struct Args {
     /// formula of the exact renderer
     #[arg(long)]
     hardware_filter: bool,
-    /// Leave nothing out: run every pass and all code, needed or not, to see what leaving out saves
+    /// Keep buffers, code and pixels that this scene does not need, to see what leaving them out
+    /// saves
     #[arg(long)]
     keep_all: bool,
     #[command(flatten)]
