@@ -46,7 +46,7 @@ impl Tracer<'_> {
         mut flight: Flight<M>,
         scratch: &mut Scratch,
     ) -> Chain {
-        let optics = &self.optics[crate::optics::D_LINE];
+        let optics = &self.d_line;
         let mut chain = Chain::default();
         if LENGTHS {
             // The last is air that no medium of the scene stands for.

@@ -28,6 +28,7 @@ mod polarised;
 mod policy;
 mod request;
 mod sampling;
+mod spectrum;
 mod stokes;
 mod topology;
 mod tracer;
@@ -43,6 +44,9 @@ pub use error::Error;
 pub use frame::{Watch, render, render_watched};
 pub use layers::LAYERS;
 pub use plan::plan;
-pub use request::{EnvironmentLookup, Estimator, Fresnel, Level, Request, Restriction};
+pub use request::{
+    EnvironmentLookup, Estimator, FEWEST_WAVELENGTHS, Fresnel, Level, Request, Restriction,
+    Spectrum,
+};
 pub use triangles::{Hit, Triangles};
 pub use wide::Instructions;

@@ -6,10 +6,10 @@ use crate::flight::{Flight, Scratch};
 use crate::frame::Job;
 use crate::layers::Pixel;
 use crate::media::Media;
-use crate::optics::D_LINE;
 use crate::policy::{Cut, Policy, Roulette};
 use crate::request::{Estimator, Level};
 use crate::sampling::Points;
+use crate::spectrum::{Total, Wave};
 use glam::{DVec2, DVec3, Vec4Swizzles};
 
 /// Working memory for the light of one pixel.
@@ -104,24 +104,17 @@ impl<M: Media> Light<'_, '_, M> {
             self.polarised::<UNIFORM, LENGTHS>(flight, Cut(cut), pixel);
             return;
         }
-        if !tracer.disperses {
-            let sum = self.tree::<P, UNIFORM, LENGTHS>(flight, D_LINE, policy, pixel);
-            pixel.radiance += sum.radiance;
-            pixel.truncated += sum.truncated;
-            pixel.coverage += f64::from(u8::from(sum.met));
-            return;
-        }
-        let mut truncated = 0.0_f64;
-        for channel in 0..3 {
-            let sum =
-                self.tree::<P, UNIFORM, LENGTHS>(flight.clone(), channel, policy.clone(), pixel);
-            pixel.radiance[channel] += sum.radiance[channel];
-            truncated = truncated.max(sum.truncated);
-            if channel == D_LINE {
+        let mut total = Total::default();
+        for (number, wave) in tracer.waves.iter().enumerate() {
+            let flight = flight.clone();
+            let sum = self.tree::<P, UNIFORM, LENGTHS>(flight, wave, policy.clone(), pixel);
+            wave.add(sum.radiance, sum.truncated, &mut total);
+            if number == tracer.waves.len() / 2 {
                 pixel.coverage += f64::from(u8::from(sum.met));
             }
         }
-        pixel.truncated += truncated;
+        pixel.radiance += total.radiance;
+        pixel.truncated += total.truncated();
     }
 
     /// Adds the light below a camera ray with its polarisation; axis: the
@@ -134,36 +127,34 @@ impl<M: Media> Light<'_, '_, M> {
     ) {
         let tracer = self.job.tracer;
         let axis = flight.direction.cross(self.job.camera.basis().up).normalize();
-        let mut truncated = 0.0_f64;
-        // Without dispersion one trace serves every channel.
-        let channels = if tracer.disperses { 0..3 } else { D_LINE..D_LINE + 1 };
-        for channel in channels {
-            let shows = |c: usize| c == channel || !tracer.disperses;
-            let optics = &tracer.optics[channel];
+        let mut total = Total::default();
+        for (number, wave) in tracer.waves.iter().enumerate() {
             let sum = tracer.polarised_tree::<M, UNIFORM, LENGTHS>(
                 flight.clone(),
                 axis,
-                optics,
+                &wave.optics,
                 cut,
                 self.scratch,
             );
-            for c in (0..3).filter(|c| shows(*c)) {
-                pixel.radiance[c] += sum.channels[c].x;
-            }
-            if shows(D_LINE) {
-                pixel.polarisation += sum.channels[D_LINE].yzw();
+            let [red, green, blue] = sum.channels;
+            wave.add(DVec3::new(red.x, green.x, blue.x), sum.truncated, &mut total);
+            // The polarisation that is shown is that of green.
+            let share = wave.share.row(1);
+            pixel.polarisation +=
+                share.x * red.yzw() + share.y * green.yzw() + share.z * blue.yzw();
+            if number == tracer.waves.len() / 2 {
                 pixel.coverage += f64::from(u8::from(sum.met));
             }
-            truncated = truncated.max(sum.truncated);
         }
-        pixel.truncated += truncated;
+        pixel.radiance += total.radiance;
+        pixel.truncated += total.truncated();
     }
 
     /// The tree below a camera ray; its light by bounce goes to the pixel.
     fn tree<P: Policy, const UNIFORM: bool, const LENGTHS: bool>(
         &mut self,
         flight: Flight<M>,
-        channel: usize,
+        wave: &Wave,
         policy: P,
         pixel: &mut Pixel,
     ) -> Sum {
@@ -171,7 +162,7 @@ impl<M: Media> Light<'_, '_, M> {
         self.bounces.resize(self.job.columns.bounces, DVec3::ZERO);
         let tracer = self.job.tracer;
         let mut climb = Climb {
-            optics: &tracer.optics[channel],
+            optics: &wave.optics,
             policy,
             waiting: self.waiting,
             scratch: self.scratch,
@@ -179,8 +170,7 @@ impl<M: Media> Light<'_, '_, M> {
         };
         let sum = tracer.tree::<M, P, UNIFORM, LENGTHS>(flight, &mut climb);
         for (total, bounce) in pixel.bounces.iter_mut().zip(&self.bounces) {
-            let one = DVec3::from_array([0, 1, 2].map(|c| f64::from(u8::from(c == channel))));
-            *total += if tracer.disperses { *bounce * one } else { *bounce };
+            *total += wave.share * *bounce;
         }
         sum
     }

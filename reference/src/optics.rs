@@ -1,4 +1,4 @@
-//! What the scene is made of, for one colour channel, and how a ray goes on
+//! What the scene is made of, for one wavelength, and how a ray goes on
 //! after an event.
 
 use crate::bend::{Bend, bend, through_gap};
@@ -8,13 +8,9 @@ use crate::media::Media;
 use crate::request::Fresnel;
 use crate::world::World;
 use glam::DVec3;
-use scenes::medium::RGB_WAVELENGTH_UM;
 use scenes::{MediumId, Scene};
 
-/// Channel whose wavelength is the d line, at which indices are stated.
-pub(crate) const D_LINE: usize = 1;
-
-/// Indices for one channel, and absorption.
+/// Indices for one wavelength, and absorption.
 #[derive(Clone, Debug)]
 pub(crate) struct Optics {
     pub(crate) indices: Indices,
@@ -24,16 +20,12 @@ pub(crate) struct Optics {
 }
 
 impl Optics {
-    pub(crate) fn new(scene: &Scene, world: &World, channel: usize, fresnel: Fresnel) -> Self {
+    pub(crate) fn new(scene: &Scene, world: &World, wavelength_um: f64, fresnel: Fresnel) -> Self {
         let classes = world.classes.iter().map(|class| class.medium);
         let medium: Vec<MediumId> = classes.chain([MediumId::SURROUNDINGS]).collect();
         let eta_of = |id: &MediumId| {
             scene.media.get(usize::from(id.0)).map_or(1.0, |medium| {
-                if medium.is_dispersive() {
-                    medium.eta_at(RGB_WAVELENGTH_UM[channel])
-                } else {
-                    medium.eta.get()
-                }
+                if medium.is_dispersive() { medium.eta_at(wavelength_um) } else { medium.eta.get() }
             })
         };
         Self {

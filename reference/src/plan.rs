@@ -3,7 +3,9 @@
 use crate::error::Error;
 use crate::flight::Counters;
 use crate::layers::Columns;
-use crate::request::{EnvironmentLookup, Estimator, Fresnel, Level, Request, Restriction};
+use crate::request::{
+    EnvironmentLookup, Estimator, Fresnel, Level, Request, Restriction, Spectrum,
+};
 use crate::world::World;
 use scenes::plan::{Buffer, Kind};
 use scenes::{Environment, Plan, Scene};
@@ -97,10 +99,13 @@ impl Variant {
             plan.leave_out(Kind::State, "lengths per medium", reason, 0);
         }
         if scene.media.iter().any(scenes::Medium::is_dispersive) && request.level != Level::R0 {
-            plan.features.push("three traces, one per channel".to_owned());
+            plan.features.push(match request.spectrum {
+                Spectrum::Channels => "three traces, one per channel".to_owned(),
+                Spectrum::Wavelengths(count) => format!("{count} traces, one per wavelength"),
+            });
         } else {
             let reason = "no medium is dispersive, or the chain follows the d line alone";
-            plan.leave_out(Kind::Pass, "traces for red and blue", reason, 0);
+            plan.leave_out(Kind::Pass, "traces for other wavelengths", reason, 0);
         }
         if request.polarised {
             plan.features.push("polarisation".to_owned());

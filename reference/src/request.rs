@@ -20,6 +20,8 @@ pub struct Request {
     /// away at every interface. Needs [`Estimator::Tree`] and
     /// [`Fresnel::Exact`]; without effect on [`Level::R0`].
     pub polarised: bool,
+    /// What light is made of where media disperse it.
+    pub spectrum: Spectrum,
     /// Do not specialise the tracer to the scene. For tests: the image is the
     /// same, bit by bit.
     pub general: bool,
@@ -36,6 +38,19 @@ pub enum Level {
     /// R1 and opaque surroundings.
     R2,
 }
+
+/// What light is made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Spectrum {
+    /// The C, d and F lines in place of red, green and blue, as on the GPU.
+    Channels,
+    /// This many wavelengths across the visible spectrum, [`FEWEST_WAVELENGTHS`]
+    /// to 1024.
+    Wavelengths(u32),
+}
+
+/// Fewer do not tell the three channels apart well.
+pub const FEWEST_WAVELENGTHS: u32 = 8;
 
 /// How the sum over paths is formed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -120,6 +135,11 @@ impl Request {
             let value = format!("{:?}, {:?}", self.estimator, self.restriction.fresnel);
             return range("polarised rendering by", value, "the tree with exact Fresnel equations");
         }
+        if let Spectrum::Wavelengths(count) = self.spectrum
+            && !(FEWEST_WAVELENGTHS..=1024).contains(&count)
+        {
+            return range("wavelengths", count.to_string(), "8 to 1024");
+        }
         match self.estimator {
             Estimator::Tree { cut } if !(0.0..=1.0).contains(&cut) => {
                 range("cut", cut.to_string(), "0 to 1")
@@ -141,6 +161,7 @@ impl Request {
             environment_lookup: EnvironmentLookup::Cube,
             restriction: Restriction::default(),
             polarised: false,
+            spectrum: Spectrum::Channels,
             general: false,
         }
     }

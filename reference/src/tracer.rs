@@ -4,6 +4,7 @@ use crate::flight::{Flight, Scratch, Start};
 use crate::media::{Counts, Media};
 use crate::optics::Optics;
 use crate::request::{EnvironmentLookup, Request, Restriction};
+use crate::spectrum::{D_LINE_UM, Wave};
 use crate::world::World;
 use glam::DVec3;
 use scenes::{Camera, Environment, Projection, Ray, Scene};
@@ -13,14 +14,14 @@ use scenes::{Camera, Environment, Projection, Ray, Scene};
 pub(crate) struct Tracer<'a> {
     pub(crate) scene: &'a Scene,
     pub(crate) world: &'a World,
-    /// Per colour channel.
-    pub(crate) optics: [Optics; 3],
+    /// At the wavelength of indices: what chains follow.
+    pub(crate) d_line: Optics,
+    /// What light is made of; one where nothing disperses.
+    pub(crate) waves: Vec<Wave>,
     pub(crate) restriction: Restriction,
     pub(crate) lookup: EnvironmentLookup,
     /// Winding counts at the eye, if all rays start there.
     pub(crate) eye_counts: Option<Vec<i16>>,
-    /// The colour channels bend differently.
-    pub(crate) disperses: bool,
 }
 
 impl Tracer<'_> {
@@ -63,13 +64,13 @@ impl<'a> Tracer<'a> {
         request: &Request,
     ) -> Self {
         let restriction = request.restriction;
-        let optics = [0, 1, 2].map(|c| Optics::new(scene, world, c, restriction.fresnel));
+        let d_line = Optics::new(scene, world, D_LINE_UM, restriction.fresnel);
+        let waves = Wave::all(scene, world, request.spectrum, &restriction);
         let eye_counts = matches!(camera.projection, Projection::Perspective { .. }).then(|| {
             let media: Counts<256> = world.media_at(camera.eye, &mut Scratch::default());
             (0..world.classes.len()).map(|class| media.get(class)).collect()
         });
-        let disperses = scene.media.iter().any(scenes::Medium::is_dispersive);
         let lookup = request.environment_lookup;
-        Self { scene, world, optics, restriction, lookup, eye_counts, disperses }
+        Self { scene, world, d_line, waves, restriction, lookup, eye_counts }
     }
 }

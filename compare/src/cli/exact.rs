@@ -2,7 +2,7 @@
 
 use crate::Error;
 use clap::ValueEnum;
-use reference::{EnvironmentLookup, Estimator, Fresnel, Level, Request, Restriction};
+use reference::{EnvironmentLookup, Estimator, Fresnel, Level, Request, Restriction, Spectrum};
 use scenes::View;
 
 /// How light is followed.
@@ -30,6 +30,10 @@ pub(super) struct ExactArgs {
     /// Follow the polarisation of light through every event (tree only); the layer `stokes` shows it
     #[arg(long)]
     polarised: bool,
+    /// Trace this many wavelengths across the visible spectrum, where media disperse light, and not
+    /// one line each for red, green and blue
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(8..=1024))]
+    wavelengths: Option<u32>,
     /// Look the environment up in its lat-long original, to agree with other renderers, and not in
     /// the cube that the GPU uses
     #[arg(long)]
@@ -100,6 +104,7 @@ impl ExactArgs {
             environment_lookup,
             restriction: self.restriction.restriction(),
             polarised: self.polarised,
+            spectrum: self.wavelengths.map_or(Spectrum::Channels, Spectrum::Wavelengths),
             ..Request::new(view, level)
         })
     }
