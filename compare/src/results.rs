@@ -193,3 +193,20 @@ pub struct NotDone {
     /// Why, in one sentence.
     pub reason: String,
 }
+
+/// Name of a time's row in a frame with everything in it that the scene does
+/// not need.
+#[must_use]
+pub fn with_all_kept(time_metric: &str) -> String {
+    format!("{}_all_kept_ms", time_metric.trim_end_matches("_ms"))
+}
+
+/// Milliseconds of a frame that leaving out saves, if both were measured. Two
+/// frames are timed, so noise can make it negative.
+pub fn saved_ms<'a>(
+    rows: impl Iterator<Item = &'a ResultRow> + Clone,
+    time_metric: &str,
+) -> Option<f64> {
+    let value = |metric: &str| rows.clone().find(|row| row.metric == metric)?.value;
+    Some(value(&with_all_kept(time_metric))? - value(time_metric)?)
+}

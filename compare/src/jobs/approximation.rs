@@ -3,6 +3,7 @@
 use super::{Id, Made};
 use crate::Error;
 use realtime::{Filter, Gpu, Method, Request, Timing};
+use scenes::rendering::Pass;
 use scenes::{LayerName, Scene, View};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -61,6 +62,31 @@ impl<'a> Approximation<'a> {
             adapter: &adapter.name,
             driver: &adapter.driver,
         })
+    }
+
+    /// The frame that is timed, with everything in it that the scene does not
+    /// need; `None` where nothing was left out that could be put back.
+    ///
+    /// # Errors
+    /// If the method cannot show the scene.
+    pub fn with_all_kept(&self) -> Result<Option<Self>, Error> {
+        let view = View {
+            layers: vec![LayerName::Radiance],
+            positions_per_axis: 1,
+            ..self.request.view.clone()
+        };
+        let lean = Request { view, ..self.request.clone() };
+        let full = Request { elide: false, ..lean.clone() };
+        let same = realtime::plan(self.scene, &lean)? == realtime::plan(self.scene, &full)?;
+        Ok((!same).then_some(Self { scene: self.scene, request: full }))
+    }
+
+    /// Times the frame and keeps no image.
+    ///
+    /// # Errors
+    /// If the method cannot show the scene.
+    pub fn passes(&self, gpu: &Gpu) -> Result<Vec<Pass>, Error> {
+        Ok(realtime::render(gpu, self.scene, &self.request)?.passes)
     }
 
     /// Renders and times the image and writes it to `image`. It is never taken

@@ -6,7 +6,7 @@ use super::page::{Cell, MethodView, Page, SceneView};
 use super::scene_images::SceneImages;
 use super::{ReportError, files, scene_plots, verdict, viewer};
 use crate::metric::{Better, Mask, Metric};
-use crate::results::{REFERENCE, ResultRow, RowKind, Run, SceneEntry, Status, Study};
+use crate::results::{REFERENCE, ResultRow, RowKind, Run, SceneEntry, Status, Study, saved_ms};
 use rayon::prelude::*;
 use std::path::Path;
 
@@ -152,6 +152,8 @@ fn method_view(
         memory: if memory > 0 { bytes(memory) } else { "—".to_owned() },
         passes: passes.collect(),
         left_out: left_out.collect(),
+        saved_time: saved_ms(numbers.of(run).iter().copied(), &study.time_metric)
+            .map_or(String::new(), duration_saved),
         unsupported: run
             .plan
             .unsupported
@@ -164,6 +166,12 @@ fn method_view(
         name,
         pictures: None,
     }
+}
+
+/// A difference of two measured times may be of either sign.
+fn duration_saved(saved_ms: f64) -> String {
+    let sign = if saved_ms < 0.0 { "+" } else { "−" };
+    format!("{sign}{}", duration(saved_ms.abs()))
 }
 
 pub(super) fn find<'a>(numbers: &Numbers<'a>, run: &Run, metric: Metric) -> Option<&'a ResultRow> {

@@ -35,6 +35,8 @@ pub(super) struct MethodView {
     pub(super) passes: Vec<(String, String)>,
     /// What was left out, why, and the bytes it would have taken.
     pub(super) left_out: Vec<(String, String, String)>,
+    /// How much shorter the frame is for it; empty if that was not measured.
+    pub(super) saved_time: String,
     /// What the scene has and the method cannot show.
     pub(super) unsupported: Vec<(String, String)>,
     /// Every measured number: name, value, unit, pixels, note.
@@ -48,9 +50,13 @@ pub(super) struct MethodView {
 }
 
 impl MethodView {
-    /// Bytes and count of what was left out, in words.
+    /// What was left out, and how much shorter the frame is for it.
     pub(super) fn left_out_short(&self) -> String {
-        self.left_out.len().to_string()
+        let count = self.left_out.len();
+        if self.saved_time.is_empty() {
+            return count.to_string();
+        }
+        format!("{count}: {}", self.saved_time)
     }
 }
 

@@ -6,7 +6,7 @@ use crate::metric::{
     Candidate, Encoding, Exposures, Judgement, Mask, Measurement, Metric, Reference, Selection,
     judge,
 };
-use crate::results::{NotDone, RESULT_SCHEMA, ResultRow, RowKind};
+use crate::results::{NotDone, RESULT_SCHEMA, ResultRow, RowKind, with_all_kept};
 use scenes::layer::flag;
 use scenes::rendering::{Pass, TimeSource};
 use scenes::{LayerName, Scene};
@@ -91,6 +91,13 @@ pub(super) fn times(passes: &[Pass], common: &ResultRow) -> Vec<ResultRow> {
         })
     };
     clocks.into_iter().filter_map(row).collect()
+}
+
+/// The same of a frame in which nothing was left out.
+pub(super) fn times_with_all_kept(passes: &[Pass], common: &ResultRow) -> Vec<ResultRow> {
+    let mut rows = times(passes, common);
+    rows.iter_mut().for_each(|row| row.metric = with_all_kept(&row.metric));
+    rows
 }
 
 /// Work done, and pixels by flag.

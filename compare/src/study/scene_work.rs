@@ -1,6 +1,6 @@
 //! What a study does with one scene: trace it, then judge each method.
 
-use super::judge::{Judge, times};
+use super::judge::{Judge, times, times_with_all_kept};
 use super::{Spec, output};
 use crate::cache::Store;
 use crate::jobs::{Approximation, Exact, Made, is_disjoint};
@@ -107,8 +107,12 @@ impl<'a> SceneWork<'a> {
                 Ok(made) => {
                     let parameters = &made.facts.provenance.parameters;
                     let mut run = Run { image: place, ..self.run(method, &made, parameters) };
-                    let judged = judge.judged(&made, &common(&run, &made))?;
+                    let common = common(&run, &made);
+                    let judged = judge.judged(&made, &common)?;
                     rows.extend(judged.rows);
+                    if let Some(full) = job.with_all_kept()? {
+                        rows.extend(times_with_all_kept(&full.passes(gpu)?, &common));
+                    }
                     run.metrics_left_out = judged.left_out;
                     if let Some(map) = judged.flip_map {
                         run.flip_map = run.image.with_extension("flip.exr");

@@ -1,6 +1,6 @@
 //! The table a study ends with: scene x method, error, time, what was left out.
 
-use crate::results::{REFERENCE, ResultRow, Status, Study};
+use crate::results::{REFERENCE, ResultRow, Status, Study, saved_ms};
 
 /// Columns: heading, metric, unit, digits after the point.
 const COLUMNS: [(&str, &str, usize); 4] = [
@@ -24,7 +24,8 @@ pub fn summary(study: &Study, rows: &[ResultRow]) -> Vec<Vec<String>> {
         let mut line = vec![run.scene.clone(), run.method.clone()];
         line.extend(COLUMNS.map(|(_, metric, digits)| value(metric, digits)));
         line.push(value(&study.time_metric, 2));
-        line.push(left_out(&run.plan));
+        let of_run = || rows.iter().filter(|row| row.id == run.id && row.scene == run.scene);
+        line.push(left_out(&run.plan, saved_ms(of_run(), &study.time_metric)));
         table.push(line);
     }
     table
@@ -39,12 +40,13 @@ fn cell(row: Option<&ResultRow>, digits: usize) -> String {
     }
 }
 
-/// How much of the program a scene did not need, by kind.
-fn left_out(plan: &scenes::Plan) -> String {
+/// How much of the program a scene did not need, and what that saves.
+fn left_out(plan: &scenes::Plan, saved_ms: Option<f64>) -> String {
     use scenes::plan::Kind;
     let count = |kind| plan.left_out.iter().filter(|left| left.kind == kind).count();
     let bytes: u64 = plan.left_out.iter().map(|left| left.saves_bytes).sum();
     let passes = count(Kind::Pass);
     let plural = if passes == 1 { "pass" } else { "passes" };
-    format!("{passes} {plural}, {:.1} MB", bytes as f64 / 1e6)
+    let time = saved_ms.map(|saved| format!(", {saved:.2} ms")).unwrap_or_default();
+    format!("{passes} {plural}, {:.1} MB{time}", bytes as f64 / 1e6)
 }
