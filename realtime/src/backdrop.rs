@@ -9,8 +9,9 @@
 #[cfg(test)]
 mod tests;
 
-use crate::composition::{Order, camera_piece, piece};
+use crate::composition::Order;
 use crate::frame::{self, Viewed};
+use crate::pieces::{camera_piece, no_vector_piece, piece};
 use crate::pipelines::{DrawnSurfaces, Maker};
 use crate::recorder::{Allocator, Recorder};
 use crate::resources::Resources;
@@ -44,7 +45,7 @@ impl Backdrop {
         if !order.draws_backdrop() {
             return Ok(None);
         }
-        let vector = crate::composition::no_vector_piece();
+        let vector = no_vector_piece();
         let drawn = |name, targets, camera, sky_values, parts| {
             let head = [piece!("frame.wgsl"), camera];
             let mut surface_head = head.to_vec();

@@ -3,26 +3,20 @@
 
 use crate::backdrop::Backdrop;
 use crate::geometry::Geometry;
+use crate::in_image::{in_view, projected_px};
 use crate::interior::Interior;
 use crate::method::{Method, Settings};
 use crate::normals;
 use crate::peel::{self, Peel};
+use crate::pieces::{
+    camera_piece, outputs_piece, piece, reflection, stored_normal_piece, vector_piece,
+};
 use crate::surfaces::{Sides, Surfaces, Target, target};
 use crate::uniforms::Body;
 use crate::wgsl::{Piece, Shader};
 use crate::{Error, Request};
-use glam::{DVec2, DVec3};
-use scenes::{Camera, Environment, LayerName, Projection, Scene};
-
-macro_rules! piece {
-    ($name:literal) => {
-        $crate::wgsl::Piece::new(
-            $name,
-            include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/src/shaders/", $name)),
-        )
-    };
-}
-pub(crate) use piece;
+use glam::DVec2;
+use scenes::{Camera, Environment, LayerName, Scene};
 
 /// Everything the front pass can write.
 const FRONT: [Target; 5] = [
@@ -38,9 +32,6 @@ const BACK: [Target; 2] = [
     target("back_normal", true, "vec4f(stored_normal(surface_normal_ws(v)), v.body)"),
     target("back_depth", false, "depth_of_m(v.p_lc)"),
 ];
-
-/// Images that the shading pass can write.
-pub(crate) const OUTPUTS: [&str; 5] = ["radiance", "exit", "first", "hit2", "count"];
 
 /// A frame, as far as it can be known without a GPU.
 pub(crate) struct Composition {
@@ -261,7 +252,9 @@ fn shade_pieces(order: &Order<'_>) -> Result<Vec<Piece>, Error> {
     pieces.extend([piece!("front.wgsl"), piece!("back.wgsl"), background, piece!("shade.wgsl")]);
     let media =
         if geometry.nested { piece!("media_nested.wgsl") } else { piece!("media_single.wgsl") };
-    pieces.extend([order.pack(), piece!("layers.wgsl"), media, piece!("march.wgsl")]);
+    pieces.push(order.pack());
+    pieces.extend(peel::camera_pieces(order));
+    pieces.extend([piece!("layers.wgsl"), media, piece!("march.wgsl")]);
     pieces.push(if geometry.bodies.smooth || keep_all {
         piece!("geometric_stored.wgsl")
     } else {
@@ -286,141 +279,10 @@ fn shade_pieces(order: &Order<'_>) -> Result<Vec<Piece>, Error> {
     Ok(pieces)
 }
 
-/// The precision of stored back normals.
-fn stored_normal_piece(settings: &Settings) -> Piece {
-    let body = match settings.word_if_any("back_format") {
-        // What an 8-bit texture keeps of (n + 1) / 2.
-        Some("8-bit") => "round((0.5 * n_ws + 0.5) * 255.0) / 127.5 - 1.0",
-        _ => "n_ws",
-    };
-    let text = format!("fn stored_normal(n_ws: vec3f) -> vec3f {{ return {body}; }}\n");
-    Piece::new("stored normal", text)
-}
-
 pub(crate) fn asked(request: &Request, name: &str) -> bool {
     request.view.layers.iter().any(|layer| match layer {
         LayerName::Buffer(buffer) if buffer == "thickness" => name.ends_with("_depth"),
         LayerName::Buffer(buffer) => buffer == name,
         _ => false,
     })
-}
-
-pub(crate) fn camera_piece(camera: &Camera) -> Piece {
-    match camera.projection {
-        Projection::Perspective { .. } => piece!("camera_perspective.wgsl"),
-        Projection::Orthographic { .. } => piece!("camera_orthographic.wgsl"),
-    }
-}
-
-/// The reflected part: which formula, or none at all.
-fn reflection(settings: &Settings) -> Vec<Piece> {
-    let share = match settings.word_if_any("fresnel") {
-        None | Some("none") => return vec![piece!("reflect_none.wgsl")],
-        _ if settings.word_if_any("eye") == Some("vertex") => "share_of_vertices(surface.pixel)",
-        Some("eq4") => "fresnel_cubed(v_ws, surface.normal_ws)",
-        Some("schlick") => {
-            "fresnel_schlick(v_ws, surface.normal_ws, frame.eta_outside, eta_body(surface.body))"
-        }
-        Some(_) => {
-            "fresnel_exact(v_ws, surface.normal_ws, frame.eta_outside, eta_body(surface.body))"
-        }
-    };
-    let text = format!(
-        "fn share_at_surface(v_ws: vec3f, surface: Surface) -> f32 {{ return {share}; }}\n"
-    );
-    vec![Piece::new("share at the surface", text), piece!("reflect.wgsl")]
-}
-
-/// put_NAME() writes an image that is wanted and does nothing for one that is not.
-fn outputs_piece(outputs: &[&str]) -> Piece {
-    let mut text = String::new();
-    for (index, name) in OUTPUTS.iter().enumerate() {
-        let binding = 32 + index;
-        let body = if outputs.contains(name) {
-            text.push_str(&format!(
-                "@group(0) @binding({binding}) var out_{name}: texture_storage_2d<rgba32float, write>;\n"
-            ));
-            format!("textureStore(out_{name}, pixel, value);")
-        } else {
-            String::new()
-        };
-        text.push_str(&format!("fn put_{name}(pixel: vec2i, value: vec4f) {{ {body} }}\n"));
-    }
-    Piece::new("outputs", text)
-}
-
-/// What a vertex hands to its pixels, for the methods that bend at vertices.
-fn vector_piece(method: &Method, settings: &Settings) -> Vec<Piece> {
-    let index = match settings.word_if_any("index") {
-        Some("ball") => "eta / max(2.0 - eta, 1e-3)",
-        _ => "eta",
-    };
-    let body = match method.id {
-        "dx7-vertex" => {
-            let a = if settings.word("a") == "direct" { "n" } else { "1.0 / n" };
-            format!(
-                "let n = {index} / frame.eta_outside;\n    let a = {a};\n    \
-                 return vec4f((1.0 - a) * dot(n_ws, -v_ws) * n_ws + v_ws, 1.0);"
-            )
-        }
-        "one-interface-vertex" => {
-            format!("return vec4f(bend(v_ws, n_ws, frame.eta_outside / ({index})).direction, 1.0);")
-        }
-        "blended" if settings.word("eye") == "vertex" => {
-            let share = match settings.word("fresnel") {
-                "schlick" => "fresnel_schlick(v_ws, n_ws, frame.eta_outside, eta)",
-                "exact" => "fresnel_exact(v_ws, n_ws, frame.eta_outside, eta)",
-                _ => "fresnel_cubed(v_ws, n_ws)",
-            };
-            format!("return vec4f(v_ws, {share});")
-        }
-        _ => {
-            return vec![no_vector_piece()];
-        }
-    };
-    let text = format!(
-        "fn vertex_vector(v_ws: vec3f, n_ws: vec3f, body: u32) -> vec4f {{\n    \
-         let eta = bodies[body].eta;\n    {body}\n}}\n"
-    );
-    vec![piece!("interface.wgsl"), Piece::new("vertex vector", text)]
-}
-
-/// For passes whose vertices have nothing to hand on.
-pub(crate) fn no_vector_piece() -> Piece {
-    Piece::new(
-        "no vertex vector",
-        "fn vertex_vector(v_ws: vec3f, n_ws: vec3f, body: u32) -> vec4f { return vec4f(0.0); }\n",
-    )
-}
-
-/// Some of the corners of a box may be in the image: they do not all lie beyond
-/// the same side of the view.
-fn in_view(camera: &Camera, corners: &[DVec3; 8]) -> bool {
-    let basis = camera.basis();
-    let half = camera.half_extent();
-    let perspective = matches!(camera.projection, Projection::Perspective { .. });
-    let mut beyond = [true; 5];
-    for corner in corners {
-        let from_eye = *corner - camera.eye;
-        let depth_m = from_eye.dot(basis.forward);
-        let reach = if perspective { depth_m * half } else { half };
-        let (x, y) = (from_eye.dot(basis.right), from_eye.dot(basis.up));
-        let outside = [x > reach.x, x < -reach.x, y > reach.y, y < -reach.y, depth_m < 0.0];
-        beyond.iter_mut().zip(outside).for_each(|(all, one)| *all &= one);
-    }
-    !beyond.contains(&true)
-}
-
-/// Continuous pixel position of a point (world space) in front of the eye.
-fn projected_px(camera: &Camera, point: DVec3, resolution_px: [u32; 2]) -> Option<DVec2> {
-    let (basis, half) = (camera.basis(), camera.half_extent());
-    let from_eye = point - camera.eye;
-    let depth_m = from_eye.dot(basis.forward);
-    let reach = match camera.projection {
-        Projection::Perspective { .. } => depth_m * half,
-        Projection::Orthographic { .. } => half,
-    };
-    let at = DVec2::new(from_eye.dot(basis.right), -from_eye.dot(basis.up)) / reach;
-    let size = DVec2::from_array(resolution_px.map(f64::from));
-    (depth_m > 0.0 && at.is_finite()).then_some((0.5 * at + 0.5) * size)
 }

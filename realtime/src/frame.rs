@@ -56,7 +56,7 @@ impl Frame {
             back.record(recorder, &self.resources);
         }
         if let Some(peel) = &self.peel {
-            peel.record(recorder, &self.resources, self.resolution_px);
+            peel.record(recorder);
         }
         if let Some(interior) = &self.interior {
             interior.record(recorder);

@@ -4,9 +4,11 @@
 //! reflections in natural objects", SIGRAD 2006.
 
 use crate::Error;
-use crate::composition::{Order, asked, piece};
+use crate::composition::{Order, asked};
 use crate::frame::{self, Viewed};
 use crate::method::Settings;
+use crate::peel;
+use crate::pieces::piece;
 use crate::pipelines::{DrawnSurfaces, Maker};
 use crate::recorder::Recorder;
 use crate::resources::Resources;
@@ -159,7 +161,12 @@ fn cracks_constants(settings: &Settings) -> Piece {
 fn clip_pieces(order: &Order<'_>, clip: Clip, names: [&str; 2]) -> Vec<Piece> {
     match clip {
         Clip::Mesh | Clip::None => vec![piece!("clip_none.wgsl")],
-        Clip::Layers => vec![order.pack(), piece!("layers.wgsl"), piece!("clip_layers.wgsl")],
+        Clip::Layers => {
+            let mut pieces = vec![order.pack()];
+            pieces.extend(peel::camera_pieces(order));
+            pieces.extend([piece!("layers.wgsl"), piece!("clip_layers.wgsl")]);
+            pieces
+        }
         Clip::Depth => depth_clip(names, stored_depth(order)),
     }
 }

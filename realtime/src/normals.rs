@@ -2,9 +2,10 @@
 //! `normal-cube`. Drawn once unless something moves or deforms.
 
 use crate::Error;
-use crate::composition::{Order, piece};
+use crate::composition::Order;
 use crate::frame::{self, Viewed};
 use crate::parts::Parts;
+use crate::pieces::piece;
 use crate::pipelines::{DrawnSurfaces, Maker};
 use crate::recorder::Recorder;
 use crate::resources::Resources;

@@ -1,20 +1,24 @@
 //! Every interface of every pixel, sorted: memory for the depth complexity that
 //! the view really has, counted once and not assumed.
 
+mod camera;
 mod composed;
 mod layer;
 mod way;
 
+pub(crate) use camera::pieces as camera_pieces;
 pub(crate) use composed::Peel;
 pub(crate) use layer::{Part as LayerPart, asked_for};
 pub(crate) use way::Counted;
 
 use crate::frame::{self, Viewed};
+use crate::method::Settings;
 use crate::pipelines::{DrawnSurfaces, Maker, OverPixels};
 use crate::recorder::Recorder;
 use crate::resources::Resources;
-use crate::{Error, readback};
-use composed::{CLEAR_OWN, Step};
+use crate::{Error, Gpu, readback, uniforms};
+use composed::{CLEAR_OWN, FRAME_OF_LAYERS, Step};
+use way::Way;
 use wgpu::{BufferUsages, TextureUsages};
 
 /// The passes that fill the layers.
@@ -24,54 +28,89 @@ pub(crate) struct Peeled {
     keep: Option<(&'static str, OverPixels)>,
     finish: Option<(&'static str, OverPixels)>,
     own: Option<&'static str>,
+    resources: Resources,
+    resolution_px: [u32; 2],
     /// What was counted.
     pub(crate) counted: Counted,
 }
 
 impl Peeled {
-    /// Counts the view's layers and makes room for them.
+    /// Counts the view's layers and makes room for them; `shown` gets what
+    /// others read.
     pub(crate) fn new(
-        maker: &Maker<'_>,
+        bodies: &Maker<'_>,
         peel: &Peel,
         view: &Viewed<'_>,
-        resources: &mut Resources,
+        shown: &mut Resources,
     ) -> Result<Self, Error> {
-        peel.way.check(maker.gpu)?;
-        let most = count(maker, peel, view, resources)?;
+        peel.way.check(bodies.gpu)?;
+        let camera = peel.camera.unwrap_or(*view.camera);
+        let view = &Viewed { camera: &camera, resolution_px: peel.resolution_px, ..*view };
+        let (maker, mut resources) = own(bodies, peel, view, shown)?;
+        let most = count(&maker, peel, view, &mut resources)?;
         let counted = Counted::new(most, peel.max_layers);
-        let own = make_room(maker, peel, view, counted.capacity, resources)?;
-        frame::set_layer_capacity(maker.gpu, view, counted.capacity, resources);
-        let collect = maker.surfaces(&peel.collect, resources)?;
+        let own = make_room(&maker, peel, view, counted.capacity, &mut resources)?;
+        frame::set_layer_capacity(maker.gpu, view, counted.capacity, &resources);
+        let collect = maker.surfaces(&peel.collect, &mut resources)?;
         let step = |step: &Option<Step>| {
             let made = step.as_ref().map(|step| {
-                let work = maker.over_pixels(&step.shader, step.entry_point, resources)?;
+                let work = maker.over_pixels(&step.shader, step.entry_point, &resources)?;
                 Ok((step.pass, work))
             });
             made.transpose()
         };
         let (keep, finish) = (step(&peel.keep)?, step(&peel.finish)?);
-        Ok(Self { collect, draws: peel.way.draws(counted), keep, finish, own, counted })
+        for name in ["slot_counts", "slot_depths", "slot_normals"] {
+            resources.share(shown, name);
+        }
+        let draws = peel.way.draws(counted);
+        let resolution_px = peel.resolution_px;
+        Ok(Self { collect, draws, keep, finish, own, resources, resolution_px, counted })
     }
 
-    pub(crate) fn record(
-        &self,
-        recorder: &mut Recorder<'_>,
-        resources: &Resources,
-        resolution_px: [u32; 2],
-    ) {
-        recorder.clear("clear layers", resources.stored("slot_counts"));
+    pub(crate) fn record(&self, recorder: &mut Recorder<'_>) {
+        recorder.clear("clear layers", self.resources.stored("slot_counts"));
         if let Some(own) = self.own {
-            recorder.clear(CLEAR_OWN, resources.stored(own));
+            recorder.clear(CLEAR_OWN, self.resources.stored(own));
         }
         for _ in 0..self.draws {
-            self.collect.record(recorder, resources);
+            self.collect.record(recorder, &self.resources);
             if let Some((pass, keep)) = &self.keep {
-                keep.record(recorder, pass, resolution_px);
+                keep.record(recorder, pass, self.resolution_px);
             }
         }
         if let Some((pass, finish)) = &self.finish {
-            finish.record(recorder, pass, resolution_px);
+            finish.record(recorder, pass, self.resolution_px);
         }
+    }
+}
+
+/// What draws the layers and what it reads: the image's camera, or their own.
+fn own<'a>(
+    bodies: &Maker<'a>,
+    peel: &Peel,
+    view: &Viewed<'_>,
+    shown: &mut Resources,
+) -> Result<(Maker<'a>, Resources), Error> {
+    let mut resources = Resources::default();
+    for name in ["bodies", "bumps"] {
+        shown.share(&mut resources, name);
+    }
+    if peel.camera.is_none() {
+        shown.share(&mut resources, "frame");
+        return Ok((bodies.clone(), resources));
+    }
+    let bytes = uniforms::bytes_of(&frame::numbers(view, 0));
+    let buffer = bodies.allocator.filled(FRAME_OF_LAYERS, &bytes, BufferUsages::UNIFORM)?;
+    shown.buffer("peel_frame", buffer.clone());
+    resources.buffer("frame", buffer);
+    Ok((bodies.clone().resized(peel.resolution_px), resources))
+}
+
+/// Chooses the way of peeling that was left to the adapter.
+pub(crate) fn decide(settings: &mut Settings, gpu: &Gpu) {
+    if settings.word_if_any("peel") == Some("auto") {
+        settings.decide("peel", Way::automatic(gpu.device.features()).word());
     }
 }
 

@@ -2,15 +2,18 @@
 //! composition, before anything exists on a GPU.
 
 use crate::backdrop::{Backdrop, FACES};
-use crate::composition::{Composition, OUTPUTS, Order};
+use crate::composition::{Composition, Order};
 use crate::geometry::Geometry;
 use crate::interior::Interior;
 use crate::method::{Method, Settings};
 use crate::normals;
+use crate::part::{Part, parts};
 use crate::parts::{Corner, Parts};
 use crate::peel::{Counted, Peel};
-use crate::render::{self, Part, Request, THICKNESS};
+use crate::pieces::OUTPUTS;
+use crate::request::{Request, camera, outputs};
 use crate::surfaces::Surfaces;
+use crate::tally::THICKNESS;
 use crate::uniforms::{self, Bodies};
 use crate::{Error, Filter};
 use encase::ShaderType;
@@ -25,10 +28,10 @@ pub fn plan(scene: &Scene, request: &Request) -> Result<Plan, Error> {
     let method = Method::find(&request.method)?;
     let settings = Settings::new(method, &request.parameters)?;
     let geometry = Geometry::new(scene, request.view.frame)?;
-    let camera = render::camera(scene, request);
-    let outputs = render::outputs(method, request)?;
+    let camera = camera(scene, request);
+    let outputs = outputs(method, request)?;
     let mut plan = Plan::default();
-    for part in render::parts(request, &outputs) {
+    for part in parts(request, &outputs) {
         let order = Order {
             method,
             settings: &settings,
@@ -218,7 +221,7 @@ impl Draft<'_> {
 
     fn layers(&mut self, peel: &Peel, layers: Option<Counted>) {
         self.plan.passes.extend(peel.passes(layers));
-        self.plan.buffers.extend(peel.buffers(self.pixels, layers));
+        self.plan.buffers.extend(peel.buffers(layers));
         // Both sides of every analytic body, to be counted and to be collected.
         self.analytic(&self.geometry.bodies, 4);
     }

@@ -1,55 +1,19 @@
 //! A method's image of a scene.
 
-use crate::composition::{Composition, Filter, Order};
+use crate::composition::{Composition, Order};
 use crate::frame::{Frame, Viewed};
 use crate::geometry::Geometry;
 use crate::method::{Method, Settings};
-use crate::peel::{Counted, LayerPart};
+use crate::part::{Part, TIMED, parts};
+use crate::peel::{self, LayerPart};
 use crate::recorder::{Allocator, Executed, Recorder};
+use crate::request::{BUFFERS, Request, Timing, buffers, camera, outputs};
+use crate::tally::Done;
 use crate::{Error, Gpu, plan, readback};
-use scenes::rendering::{Pass, Provenance, Time, TimeSource};
-use scenes::{Camera, LayerName, Layers, Plan, Rendering, Scene, View};
+use scenes::rendering::Provenance;
+use scenes::{Camera, LayerName, Layers, Plan, Rendering, Scene};
 use std::borrow::Cow;
-use std::collections::BTreeMap;
 use std::time::Instant;
-
-/// What a method is asked.
-#[derive(Clone, Debug)]
-pub struct Request {
-    /// What every renderer is asked.
-    pub view: View,
-    /// Id or alias of the method.
-    pub method: String,
-    /// Parameters as `name = value`; the others have their defaults.
-    pub parameters: BTreeMap<String, String>,
-    /// How the environment is looked up.
-    pub filter: Filter,
-    /// How long to measure, if at all.
-    pub timing: Option<Timing>,
-    /// Leave out what the scene does not need. False keeps, with neutral input, the
-    /// surface buffers that nobody reads, stored geometric normals, absorption,
-    /// traces of red and blue, refraction at equal indices, bodies and pixels
-    /// outside the image: to see that the image is the same and what is saved.
-    /// Cracks, air, bumps and surroundings that a scene does not have stay out.
-    pub elide: bool,
-}
-
-/// How long frames are timed.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Timing {
-    /// Frames that are not counted.
-    pub warm_up: u32,
-    /// At least this long, seconds.
-    pub seconds: f64,
-    /// At most this many frames.
-    pub max_frames: u32,
-}
-
-impl Default for Timing {
-    fn default() -> Self {
-        Self { warm_up: 2, seconds: 0.3, max_frames: 200 }
-    }
-}
 
 /// Renders a scene with a method.
 ///
@@ -62,7 +26,8 @@ impl Default for Timing {
 /// If the request does not fit the method, or the GPU fails.
 pub fn render(gpu: &Gpu, scene: &Scene, request: &Request) -> Result<Rendering, Error> {
     let method = Method::find(&request.method)?;
-    let settings = Settings::new(method, &request.parameters)?;
+    let mut settings = Settings::new(method, &request.parameters)?;
+    peel::decide(&mut settings, gpu);
     let geometry = Geometry::new(scene, request.view.frame)?;
     let wanted = outputs(method, request)?;
     let camera = camera(scene, request);
@@ -90,7 +55,7 @@ impl Job<'_> {
             let ran = self.frame(&part)?;
             let layers_held = ran.frame.layers();
             plan::add(&mut plan, &ran.composition, self.scene, self.geometry, &part, layers_held);
-            done.layers(layers_held, &part);
+            done.layers(layers_held, ran.composition.peel.as_ref());
             done.bytes += ran.allocator.allocated().iter().map(|buffer| buffer.bytes).sum::<u64>();
             let timed = match (part.label, self.request.timing) {
                 (TIMED, Some(timing)) => self.time(&ran.frame, timing)?,
@@ -314,224 +279,4 @@ struct Ran<'a> {
     executed: Executed,
     /// What it took to find the distances through the bodies, if they are read.
     thickness_ms: Option<f64>,
-}
-
-/// What all frames of a request did, as the recorder and the allocator saw it.
-#[derive(Default)]
-struct Done {
-    passes: Vec<Pass>,
-    count: u64,
-    bytes: u64,
-    timed_frames: u64,
-    layers: u64,
-    layer_bytes: u64,
-}
-
-impl Done {
-    /// Layers per pixel that are kept, and their bytes, in the frame that keeps
-    /// the most.
-    fn layers(&mut self, counted: Option<Counted>, part: &Part) {
-        let layers = counted.map_or(0, |counted| u64::from(counted.capacity));
-        let pixels: u64 = part.resolution_px().map(u64::from).iter().product();
-        self.layers = self.layers.max(layers);
-        self.layer_bytes = self.layer_bytes.max(8 * layers * pixels);
-    }
-
-    /// `thickness_ms`: what the CPU did before the frame, and would before every
-    /// other.
-    fn add(
-        &mut self,
-        label: &str,
-        executed: &[String],
-        timed: &[Executed],
-        thickness_ms: Option<f64>,
-    ) {
-        self.count += executed.len() as u64;
-        self.timed_frames += timed.len() as u64;
-        if let Some(milliseconds) = thickness_ms {
-            self.count += 1;
-            let times = vec![Time { source: TimeSource::Cpu, milliseconds }];
-            self.passes.push(Pass { name: format!("{label}{THICKNESS}"), times });
-        }
-        let passes = executed.iter().enumerate();
-        self.passes.extend(passes.map(|(index, name)| Pass {
-            name: format!("{label}{name}"),
-            times: timestamp(timed, index),
-        }));
-        if !timed.is_empty() {
-            let frame_ms = median(timed.iter().map(|frame| frame.wall_ms));
-            let milliseconds = frame_ms + thickness_ms.unwrap_or(0.0);
-            let times = vec![Time { source: TimeSource::Wall, milliseconds }];
-            self.passes.push(Pass { name: format!("{label}{WHOLE_FRAME}"), times });
-        }
-    }
-}
-
-/// Finding the distances along the normals, on the CPU.
-pub(crate) const THICKNESS: &str = "distances along normals";
-/// Label of the frame that is timed, and name of the entry with its wall time.
-const TIMED: &str = "timed: ";
-const WHOLE_FRAME: &str = "frame";
-
-/// One frame of a request.
-pub(crate) struct Part {
-    /// Before the names of its passes; empty for the first.
-    pub(crate) label: &'static str,
-    /// The request, reduced to what this frame answers.
-    pub(crate) request: Request,
-    /// Images that shading writes.
-    pub(crate) outputs: Vec<&'static str>,
-    /// Texels along a pixel's side.
-    pub(crate) scale: u32,
-}
-
-impl Part {
-    pub(crate) fn is_timed(&self) -> bool {
-        self.label == TIMED
-    }
-
-    /// Pixels of its images.
-    pub(crate) fn resolution_px(&self) -> [u32; 2] {
-        self.request.view.resolution_px.map(|n| n * self.scale)
-    }
-
-    /// Samplers read 32-bit floats only where the adapter can; elsewhere the
-    /// manual filter is what can be timed.
-    fn on(mut self, gpu: &Gpu) -> Self {
-        if !gpu.device.features().contains(wgpu::Features::FLOAT32_FILTERABLE) {
-            self.request.filter = Filter::Manual;
-        }
-        self
-    }
-}
-
-/// The frames that a request comes to: light at k x k positions, layers at
-/// pixel centres (together with the light where k is 1), and the frame that is
-/// timed, which is what a game would draw: light only, one position, the
-/// hardware's filter.
-pub(crate) fn parts(request: &Request, outputs: &[&'static str]) -> Vec<Part> {
-    let k = request.view.positions_per_axis;
-    let reduced = |keep: fn(&LayerName) -> bool, filter| {
-        let layers = request.view.layers.iter().filter(|layer| keep(layer)).cloned().collect();
-        Request { view: View { layers, ..request.view.clone() }, filter, ..request.clone() }
-    };
-    let mut parts = Vec::new();
-    let light = || vec!["radiance"];
-    if outputs.contains(&"radiance") && k > 1 {
-        let request = reduced(is_light, request.filter);
-        parts.push(Part { label: "", request, outputs: light(), scale: k });
-    }
-    let single = outputs.iter().copied().filter(|output| k == 1 || *output != "radiance");
-    let single: Vec<_> = single.collect();
-    if !single.is_empty() || !buffers(request).is_empty() || parts.is_empty() {
-        let label = if parts.is_empty() { "" } else { "centre: " };
-        let request = reduced(|_| true, request.filter);
-        parts.push(Part { label, request, outputs: single, scale: 1 });
-    }
-    if request.timing.is_some() {
-        let request = reduced(is_light, Filter::Hardware);
-        parts.push(Part { label: TIMED, request, outputs: light(), scale: 1 });
-    }
-    parts
-}
-
-fn is_light(layer: &LayerName) -> bool {
-    matches!(layer, LayerName::Radiance | LayerName::Coverage)
-}
-
-/// Names of the intermediate buffers that were asked for.
-fn buffers(request: &Request) -> Vec<&str> {
-    let names = request.view.layers.iter().filter_map(|layer| match layer {
-        LayerName::Buffer(name) => Some(name.as_str()),
-        _ => None,
-    });
-    names.collect()
-}
-
-/// Most texels along a side that any adapter is asked for.
-const LARGEST_PX: u64 = 32_768;
-
-/// Refuses sizes that have no content, or that no adapter holds.
-fn check_size(request: &Request) -> Result<(), Error> {
-    let [width, height] = request.view.resolution_px;
-    let k = request.view.positions_per_axis;
-    let what = format!("an image of {width} x {height} pixels with {k} x {k} positions");
-    let needed = u64::from(width.max(height)) * u64::from(k);
-    if width == 0 || height == 0 || k == 0 {
-        return Err(Error::Size(format!("{what} is empty; write at least 1 for each")));
-    }
-    if needed > LARGEST_PX {
-        let advice = "lower the resolution or the number of positions";
-        return Err(Error::Size(format!(
-            "{what} is {needed} texels along a side, more than {LARGEST_PX}; {advice}"
-        )));
-    }
-    Ok(())
-}
-
-/// Intermediate buffers that can be asked for as layers.
-pub(crate) const BUFFERS: [&str; 7] = [
-    "front_normal",
-    "front_depth",
-    "front_geometric",
-    "back_normal",
-    "back_depth",
-    "thickness",
-    "crack_mask",
-];
-
-/// The scene's camera at the resolution that was asked for.
-pub(crate) fn camera(scene: &Scene, request: &Request) -> Camera {
-    Camera { resolution_px: request.view.resolution_px, ..scene.camera }
-}
-
-/// Images that the shading pass must write.
-pub(crate) fn outputs(method: &Method, request: &Request) -> Result<Vec<&'static str>, Error> {
-    check_size(request)?;
-    let mut outputs = Vec::new();
-    for layer in &request.view.layers {
-        let output = match layer {
-            LayerName::Radiance | LayerName::Coverage => "radiance",
-            LayerName::Exit => "exit",
-            LayerName::First => "first",
-            LayerName::Hit2 => "hit2",
-            LayerName::Events | LayerName::Flags | LayerName::Path(_) => "count",
-            LayerName::Buffer(name)
-                if BUFFERS.contains(&name.as_str()) || LayerPart::named(name).is_some() =>
-            {
-                continue;
-            }
-            other => {
-                return Err(Error::UnknownLayer {
-                    method: method.id.to_owned(),
-                    layer: other.to_string(),
-                    available: format!(
-                        "radiance, coverage, exit, first, hit2, events, flags, path.<medium>, {}, \
-                         layer_count, layer_depth.<n>, layer_normal.<n>, layer_facing.<n>",
-                        BUFFERS.join(", ")
-                    ),
-                });
-            }
-        };
-        if !outputs.contains(&output) {
-            outputs.push(output);
-        }
-    }
-    Ok(outputs)
-}
-
-fn timestamp(frames: &[Executed], pass: usize) -> Vec<Time> {
-    let values: Vec<f64> =
-        frames.iter().filter_map(|frame| frame.timestamp_ms.as_ref()?.get(pass).copied()).collect();
-    if values.is_empty() {
-        return Vec::new();
-    }
-    vec![Time { source: TimeSource::Timestamp, milliseconds: median(values.into_iter()) }]
-}
-
-fn median(values: impl Iterator<Item = f64>) -> f64 {
-    let mut sorted: Vec<f64> = values.collect();
-    sorted.sort_by(f64::total_cmp);
-    let middle = sorted.len() / 2;
-    if sorted.len() % 2 == 1 { sorted[middle] } else { 0.5 * (sorted[middle - 1] + sorted[middle]) }
 }

@@ -2,8 +2,8 @@
 //! they write, and the shaders that follow from it.
 
 use crate::Error;
-use crate::composition::piece;
 use crate::parts::{Formula, Parts};
+use crate::pieces::piece;
 use crate::wgsl::{Piece, Shader};
 
 /// A buffer of the surfaces that a raster pass can write.

@@ -202,6 +202,8 @@ pub static METHODS: &[Method] = &[
             MAX_EVENTS,
             MULTI_FRESNEL,
             PEEL,
+            PEEL_CAMERA,
+            PEEL_PX,
             MAX_LAYERS,
         ],
         traces_colours: true,
@@ -223,6 +225,8 @@ pub static METHODS: &[Method] = &[
             TIR,
             MULTI_FRESNEL,
             PEEL,
+            PEEL_CAMERA,
+            PEEL_PX,
             MAX_LAYERS,
         ],
         traces_colours: true,
@@ -242,8 +246,8 @@ const MAX_STEPS: Parameter =
 const MAX_EVENTS: Parameter = number("max_events", 12.0, 1.0, 64.0, "", "interfaces of one chain");
 const PEEL: Parameter = choice(
     "peel",
-    &["slots", "everitt", "dual", "cascade"],
-    "how layers are found: by atomic slots and a sort; one per pass (coincident ones are one); nearest and farthest per pass (the same; needs 32-bit float blending; of too many, keeps both ends); by an atomic cascade (needs 64-bit atomics; of too many, keeps the nearest)",
+    &["slots", "everitt", "dual", "cascade", "auto"],
+    "how layers are found: by atomic slots and a sort; one per pass (coincident ones are one); nearest and farthest per pass (the same; needs 32-bit float blending; of too many, keeps both ends); by an atomic cascade (needs 64-bit atomics; of too many, keeps the nearest); cascade where the adapter can, else slots (which a plan states)",
 );
 const MAX_LAYERS: Parameter = number(
     "max_layers",
@@ -252,6 +256,19 @@ const MAX_LAYERS: Parameter = number(
     32.0,
     "",
     "most layers per pixel; where there are more, a flag",
+);
+const PEEL_CAMERA: Parameter = choice(
+    "peel_camera",
+    &["screen", "fitted"],
+    "the camera that layers are seen with: the image's, or one of their own that holds all of the bodies, also outside the image",
+);
+const PEEL_PX: Parameter = number(
+    "peel_px",
+    0.0,
+    0.0,
+    8192.0,
+    "px",
+    "edge of a fitted camera's image; 0: the longer edge of the frame",
 );
 const TIR: Parameter = choice(
     "tir",

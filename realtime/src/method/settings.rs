@@ -42,6 +42,11 @@ impl Settings {
         Ok(Self(settings))
     }
 
+    /// Decides a choice that was left open.
+    pub(crate) fn decide(&mut self, name: &'static str, word: &'static str) {
+        self.0.insert(name, Value::Word(word));
+    }
+
     /// A number.
     ///
     /// # Panics

@@ -1,10 +1,14 @@
 //! The passes of each way of peeling, as far as they can be known without a GPU.
 
+use super::camera;
 use super::way::{Counted, MAX_LAYERS, Way};
-use crate::Error;
-use crate::composition::{Order, piece};
+use crate::composition::Order;
+use crate::pieces::piece;
 use crate::surfaces::{STORED, Sides, Surfaces, Target};
 use crate::wgsl::{Piece, Shader};
+use crate::{Error, uniforms};
+use encase::ShaderType;
+use scenes::Camera;
 use scenes::plan::Buffer;
 use wgpu::TextureFormat;
 
@@ -12,6 +16,10 @@ use wgpu::TextureFormat;
 pub(crate) struct Peel {
     pub(crate) way: Way,
     pub(crate) max_layers: u32,
+    /// A camera of the layers' own.
+    pub(crate) camera: Option<Camera>,
+    /// Of the layers.
+    pub(crate) resolution_px: [u32; 2],
     pub(crate) count: Surfaces,
     pub(crate) collect: Surfaces,
     /// After each drawing.
@@ -34,6 +42,8 @@ impl Step {
     }
 }
 
+/// The camera's numbers, where layers have one of their own.
+pub(super) const FRAME_OF_LAYERS: &str = "frame of the layers";
 /// Name of the clearing of a way's own buffer.
 pub(crate) const CLEAR_OWN: &str = "clear what was found";
 
@@ -94,8 +104,11 @@ impl Peel {
             Way::Everitt => None,
         };
         let count = vec![piece!("peel_count.wgsl")];
+        let camera = camera::fitted(order)?;
         Ok(Self {
             way,
+            resolution_px: camera.map_or(order.resolution_px, |camera| camera.resolution_px),
+            camera,
             max_layers: order.settings.number_if_any("max_layers").unwrap_or(MAX_LAYERS.into())
                 as u32,
             count: draw("count layers", vec![STORED], Sides::All, count)?,
@@ -123,11 +136,15 @@ impl Peel {
 
     /// Memory beside the uniforms of analytic bodies. Before layers are counted,
     /// what grows with their number is stated for one.
-    pub(crate) fn buffers(&self, pixels: u64, counted: Option<Counted>) -> Vec<Buffer> {
+    pub(crate) fn buffers(&self, counted: Option<Counted>) -> Vec<Buffer> {
+        let pixels: u64 = self.resolution_px.map(u64::from).iter().product();
         let capacity = counted.map_or(1, |counted| counted.capacity);
         let suffix = if counted.is_none() { PER_LAYER } else { "" };
         let buffer = |name: &str, bytes| Buffer { name: name.to_owned(), bytes };
         let mut buffers = vec![buffer("slot_counts", 4 * pixels)];
+        if self.camera.is_some() {
+            buffers.push(buffer(FRAME_OF_LAYERS, uniforms::Frame::min_size().get()));
+        }
         // A raster pass must have a target, though nothing is written to it.
         buffers.push(buffer(STORED.name, STORED.bytes(pixels)));
         for target in self.collect.targets.iter().filter(|target| **target != STORED) {

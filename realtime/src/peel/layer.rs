@@ -2,7 +2,7 @@
 //! `layer_normal.N` and `layer_facing.N` with N from 0 for the nearest.
 
 use super::way::{Counted, MAX_LAYERS};
-use crate::render::Request;
+use crate::request::Request;
 use crate::resources::Resources;
 use crate::{Error, Gpu, readback};
 use scenes::LayerName;

@@ -47,7 +47,7 @@ impl Way {
         }
     }
 
-    fn word(self) -> &'static str {
+    pub(crate) fn word(self) -> &'static str {
         match self {
             Self::Slots => "slots",
             Self::Everitt => "everitt",
@@ -78,6 +78,13 @@ impl Way {
             Self::Dual => Some(("dual_bounds", 8)),
             Self::Cascade => Some(("cascade", 8 * u64::from(capacity))),
         }
+    }
+
+    /// What `auto` means on an adapter: the one pass that keeps the nearest of
+    /// too many layers where 64-bit atomics allow it, else slots.
+    pub(crate) fn automatic(available: Features) -> Self {
+        let (needed, _) = Self::Cascade.features();
+        if available.contains(needed) { Self::Cascade } else { Self::Slots }
     }
 
     fn features(self) -> (Features, &'static str) {
@@ -126,6 +133,8 @@ mod tests {
             }
             way.check_features(Features::all(), "rich").unwrap();
         }
+        assert_eq!(Way::automatic(Features::empty()), Way::Slots);
+        assert_eq!(Way::automatic(Features::all()), Way::Cascade);
         Way::Slots.check_features(Features::empty(), "plain").unwrap();
         Way::Everitt.check_features(Features::empty(), "plain").unwrap();
     }

@@ -1,5 +1,6 @@
 // The sorted layers of a view: for each pixel depth and
 // normal of every interface its ray meets, nearest first.
+// Needs peel_camera_screen.wgsl or peel_camera_fitted.wgsl.
 // Depth is linear, metres. Layers are counted from 0.
 
 @group(0) @binding(12) var<storage, read> slot_counts: array<u32>;
@@ -11,13 +12,17 @@ const EMPTY_DEPTH: f32 = 1e30;
 var<private> layers_overflowed: bool = false;
 
 fn layer_count(pixel: vec2i) -> u32 {
-    if (!in_image(pixel)) {
+    if (!in_layers(pixel)) {
         return 0u;
     }
-    let place = u32(pixel.y) * u32(frame.resolution_px.x) + u32(pixel.x);
+    let place = u32(pixel.y) * u32(peel_size_px().x) + u32(pixel.x);
     let counted = slot_counts[place];
-    layers_overflowed |= counted > frame.layer_capacity;
-    return min(counted, frame.layer_capacity);
+    layers_overflowed |= counted > peel_capacity();
+    return min(counted, peel_capacity());
+}
+
+fn in_layers(pixel: vec2i) -> bool {
+    return all(pixel >= vec2i(0)) && all(vec2f(pixel) < peel_size_px());
 }
 
 // Raised once a pixel was looked at that has more interfaces than are kept.

@@ -12,7 +12,7 @@ struct Chain {
 }
 
 fn pixel_of(p_lc: vec3f) -> vec2i {
-    return vec2i(floor(project_px(p_lc)));
+    return vec2i(floor(peel_px(p_lc)));
 }
 
 fn outside_bodies(p_lc: vec3f) -> bool {

@@ -18,20 +18,20 @@ struct Crossing {
 
 fn medium_at(p_lc: vec3f) -> u32 {
     let pixel = pixel_of(p_lc);
-    return medium_behind(pixel, layers_before(pixel, depth_of_m(p_lc)));
+    return medium_behind(pixel, layers_before(pixel, peel_depth_m(p_lc)));
 }
 
 // A step may cross one layer at most: halve it while it crosses two or more and
 // is longer than half a pixel. What still differs by two there is a silhouette.
 fn next_point(p_lc: vec3f, d_ws: vec3f) -> vec4f {
     let pixel = pixel_of(p_lc);
-    let k = layers_before(pixel, depth_of_m(p_lc));
-    let shortest_m = 0.5 * footprint_m(depth_of_m(p_lc));
+    let k = layers_before(pixel, peel_depth_m(p_lc));
+    let shortest_m = 0.5 * peel_footprint_m(peel_depth_m(p_lc));
     let gap = gap_m(pixel, k, frame.radius_m) / LINEAR_PROBE_DIV;
     var step_m = clamp(gap, shortest_m, max(0.1 * frame.radius_m, shortest_m));
     var q_lc = p_lc + step_m * d_ws;
     while (step_m > shortest_m) {
-        let k_q = layers_before(pixel_of(q_lc), depth_of_m(q_lc));
+        let k_q = layers_before(pixel_of(q_lc), peel_depth_m(q_lc));
         if (max(k, k_q) - min(k, k_q) < 2u) {
             break;
         }
@@ -46,7 +46,7 @@ fn find_crossing(start_lc: vec3f, d_ws: vec3f, medium: u32) -> Crossing {
     var out = Crossing(start_lc, start_lc, medium, 0.0, false, false);
     for (var step = 0u; step < MAX_STEPS; step += 1u) {
         let next = next_point(p_lc, d_ws);
-        if (!in_image(pixel_of(next.xyz)) || outside_bodies(next.xyz)) {
+        if (!in_layers(pixel_of(next.xyz)) || outside_bodies(next.xyz)) {
             out.after_lc = next.xyz;
             out.left = true;
             return out;
@@ -84,7 +84,7 @@ fn bisect(low_lc: vec3f, high_lc: vec3f, medium: u32, found: u32, step_m: f32) -
 // hold, and Wyman's fallback (perpendicular to the viewing axis) stands in.
 fn normal_at_crossing(crossing: Crossing, d_ws: vec3f, entering: bool) -> vec4f {
     let pixel = pixel_of(crossing.after_lc);
-    let z_m = depth_of_m(crossing.after_lc);
+    let z_m = peel_depth_m(crossing.after_lc);
     var nearest_m = max(0.05 * frame.radius_m, 2.0 * crossing.step_m);
     var normal = vec4f(0.0);
     for (var j = 0u; j < layer_count(pixel); j += 1u) {
@@ -112,7 +112,7 @@ fn march(start_lc: vec3f, start_d_ws: vec3f, start_medium: u32) -> Chain {
     var chain = Chain(start_lc, start_d_ws, vec3f(0.0), 0.0, 1u, 0u, 0u, 0u);
     var medium = start_medium;
     // Half a pixel along the ray: the first layer is behind us now.
-    chain.p_lc += 0.5 * footprint_m(depth_of_m(start_lc)) * start_d_ws;
+    chain.p_lc += 0.5 * peel_footprint_m(peel_depth_m(start_lc)) * start_d_ws;
     loop {
         if (chain.events >= MAX_EVENTS) {
             chain.flags |= FLAG_CAP;
@@ -179,7 +179,7 @@ fn cross_interface(chain: ptr<function, Chain>, crossing: Crossing, medium: ptr<
     }
     (*chain).d_ws = bent.direction;
     (*chain).p_lc = crossing.after_lc
-        + 0.5 * footprint_m(depth_of_m(crossing.after_lc)) * bent.direction;
+        + 0.5 * peel_footprint_m(peel_depth_m(crossing.after_lc)) * bent.direction;
     *medium = crossing.medium;
     return true;
 }

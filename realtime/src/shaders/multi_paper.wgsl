@@ -18,7 +18,7 @@ fn march_paper(start_lc: vec3f, start_d_ws: vec3f, eta_inside: f32, eta_outside:
     var steps = 0u;
     var inside = true;
     let tolerance_m = 1e-5 * frame.radius_m;
-    let shortest_m = 0.5 * footprint_m(depth_of_m(start_lc));
+    let shortest_m = 0.5 * peel_footprint_m(peel_depth_m(start_lc));
     loop {
         if (chain.events >= MAX_EVENTS || steps >= MAX_STEPS) {
             chain.flags |= FLAG_CAP;
@@ -27,18 +27,18 @@ fn march_paper(start_lc: vec3f, start_d_ws: vec3f, eta_inside: f32, eta_outside:
         steps += 1u;
         chain.steps += 1u;
         let pixel = pixel_of(chain.p_lc);
-        if (!in_image(pixel) || n >= layer_count(pixel) || n < 1u) {
+        if (!in_layers(pixel) || n >= layer_count(pixel) || n < 1u) {
             break;
         }
         let near_m = layer_depth_m(pixel, n - 1u);
         let far_m = layer_depth_m(pixel, n);
-        if (depth_of_m(chain.p_lc) < near_m - tolerance_m) {
+        if (peel_depth_m(chain.p_lc) < near_m - tolerance_m) {
             n -= 1u;
             continue;
         }
         let step_m = max((far_m - near_m) / LINEAR_PROBE_DIV, shortest_m);
         let q_lc = chain.p_lc + step_m * chain.d_ws;
-        if (!in_image(pixel_of(q_lc)) || depth_of_m(q_lc) < paper_gap_end_m(q_lc, n)) {
+        if (!in_layers(pixel_of(q_lc)) || peel_depth_m(q_lc) < paper_gap_end_m(q_lc, n)) {
             chain.path_m += select(0.0, step_m, inside);
             chain.p_lc = q_lc;
             continue;
@@ -59,7 +59,7 @@ fn meet_next_layer(chain: ptr<function, Chain>, q_lc: vec3f, n: u32, eta_inside:
     var high = q_lc;
     for (var i = 0u; i < BINARY_STEPS; i += 1u) {
         let middle = 0.5 * (low + high);
-        if (depth_of_m(middle) < paper_gap_end_m(middle, n)) {
+        if (peel_depth_m(middle) < paper_gap_end_m(middle, n)) {
             low = middle;
         } else {
             high = middle;

@@ -21,7 +21,7 @@ fn rendered(scene: &Scene, method: &str, elide: bool) -> Rendering {
 }
 
 /// Share of values that differ by more than one part in a million.
-fn differing(a: &Rendering, b: &Rendering) -> f64 {
+pub(crate) fn differing(a: &Rendering, b: &Rendering) -> f64 {
     let data = |r: &Rendering| -> Vec<f64> {
         [LayerName::Radiance, LayerName::Exit]
             .iter()

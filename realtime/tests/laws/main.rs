@@ -1,6 +1,7 @@
 //! Laws that images and plans must obey, through the crate's own front door.
 #![allow(clippy::unwrap_used, reason = "a test that cannot render must fail")]
 
+mod built_in;
 mod colour;
 mod distance;
 mod environment;

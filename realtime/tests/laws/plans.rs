@@ -126,7 +126,7 @@ fn executed(rendering: &Rendering) -> Vec<&str> {
 
 /// The number of layers is known only once they are counted; until then their
 /// bytes are stated for one.
-fn kept(plan: &Plan, rendering: &Rendering) -> bool {
+pub(crate) fn kept(plan: &Plan, rendering: &Rendering) -> bool {
     let counted = plan.buffers.iter().any(|buffer| buffer.name.ends_with("(per layer)"));
     let bytes = rendering.counters["bytes"];
     plan.passes == rendering.plan.passes
