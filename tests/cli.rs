@@ -281,3 +281,85 @@ fn each_restriction_reaches_the_renderer() {
         assert_ne!(whole, image(&index.to_string(), option), "{option}");
     }
 }
+
+/// The first image comes first, the last is the same as without stages, and
+/// stopping in between leaves a whole one.
+#[test]
+fn progressive_rendering_ends_with_the_same_image() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let common = "--resolution 24 --positions 4";
+    done(&format!("reference ball -o {} {common}", path("plain.exr")));
+    let ran = snell(&format!("reference ball -o {} {common} --progressive", path("staged.exr")));
+    assert_eq!(ran.status, Some(0), "{}", ran.message);
+    let stages: Vec<&str> = ran.message.lines().filter(|line| line.contains("written")).collect();
+    assert_eq!(stages.len(), 3, "{}", ran.message);
+    assert!(stages[0].contains(" 1 ray per pixel"), "{stages:?}");
+    let read = |name: &str| scenes::image::read(std::path::Path::new(&path(name))).unwrap();
+    assert_eq!(read("plain.exr"), read("staged.exr"));
+}
+
+#[test]
+fn stopping_progressive_rendering_leaves_the_last_whole_image() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("stopped.exr");
+    let arguments = "reference diamond --resolution 64 --positions 64 --cut 1e-9 --progressive -o";
+    let mut child = Command::new(env!("CARGO_BIN_EXE_snell-under-test"))
+        .current_dir(root())
+        .args(arguments.split_whitespace())
+        .arg(&path)
+        .stdout(std::process::Stdio::null())
+        .stderr(std::process::Stdio::null())
+        .spawn()
+        .unwrap();
+    while !path.exists() {
+        assert!(child.try_wait().unwrap().is_none(), "it ended without an image");
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    assert!(child.try_wait().unwrap().is_none(), "the work is too small for this test");
+    let interrupt = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    assert!(interrupt.unwrap().success());
+    assert!(!child.wait().unwrap().success());
+    assert_eq!(scenes::image::read(&path).unwrap().resolution_px, [64, 64]);
+}
+
+#[test]
+fn a_caustic_is_written_and_shades_its_receiver() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let map = path("floor.exr");
+    let answer = &objects(&format!(
+        "caustics caustic-ball --receiver floor --size 32x16 --photons 20000 --seed 3 --out {map}"
+    ))[0];
+    assert_eq!(answer["size_bins"], serde_json::json!([32, 16]));
+    assert!(answer["deposited"][0].as_f64().unwrap() > 0.0, "{answer}");
+    let layers = layers_of(&map);
+    assert_eq!(layers.len(), 2, "{layers:?}");
+    assert!(layers.contains(&("irradiance".to_owned(), 3)), "{layers:?}");
+    let common = "reference caustic-ball --resolution 16 --positions 1 --level r2 -o";
+    done(&format!("{common} {}", path("direct.exr")));
+    done(&format!("{common} {} --caustics floor={map}", path("lit.exr")));
+    let read = |name: &str| scenes::image::read(std::path::Path::new(&path(name))).unwrap();
+    assert_ne!(read("direct.exr"), read("lit.exr"));
+    let out = path("no.exr");
+    for (arguments, hint) in [
+        (format!("caustics caustic-ball --receiver roof -o {out}"), "1 (floor)"),
+        (format!("caustics caustic-ball --receiver ball -o {out}"), "lambert"),
+        (format!("caustics ball --receiver 0 -o {out}"), "[[light]]"),
+        (format!("caustics caustic-ball --receiver floor -o {}", path("no.png")), ".exr"),
+        (format!("reference caustic-ball -o {out} --caustics floor={map}"), "--level r2"),
+        (format!("reference caustic-ball -o {out} --level r2 --caustics {map}"), "RECEIVER=FILE"),
+        (
+            format!(
+                "reference caustic-ball -o {out} --level r2 --caustics floor={}",
+                path("lit.exr")
+            ),
+            "no layer \"irradiance\"",
+        ),
+    ] {
+        let ran = snell(&arguments);
+        assert_eq!(ran.status, Some(2), "{arguments}");
+        assert!(ran.message.contains(hint), "{arguments}: {}", ran.message);
+    }
+    assert!(!std::path::Path::new(&out).exists());
+}

@@ -44,6 +44,29 @@ pub enum Error {
          of paths reports what it dropped in the layer \"truncated\" instead"
     )]
     NoVariance,
+    /// An object that cannot receive a caustic.
+    #[error(
+        "object \"{object}\" {what}, so it cannot receive light\nname a diffuse box, or a mesh of two \
+         triangles that make a parallelogram"
+    )]
+    Receiver {
+        /// Name of the object.
+        object: String,
+        /// What it is not.
+        what: String,
+    },
+    /// A caustic without light.
+    #[error("the scene has no lights, so there is no caustic\nadd a [[light]]")]
+    NoLights,
+    /// Glass that light meets everywhere.
+    #[error(
+        "object \"{object}\" is glass without bounds, and photons would have to start everywhere\nmake \
+         it a box or a cylinder that is wide enough"
+    )]
+    Unbounded {
+        /// Name of the object.
+        object: String,
+    },
     /// A number outside its range.
     #[error("{name} = {value} is out of range: {range}")]
     Range {

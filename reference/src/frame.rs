@@ -182,6 +182,9 @@ fn provenance(request: &Request) -> Provenance {
     set("environment_lookup", format!("{:?}", request.environment_lookup));
     set("restriction", format!("{:?}", request.restriction));
     set("spectrum", format!("{:?}", request.spectrum));
+    if let Some(map) = &request.caustics {
+        set("caustics", format!("{map:?}"));
+    }
     set("polarised", request.polarised.to_string());
     set("positions_per_axis", request.view.positions_per_axis.to_string());
     set("frame", request.view.frame.to_string());

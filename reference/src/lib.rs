@@ -8,6 +8,7 @@
 mod analytic;
 mod bend;
 mod branches;
+mod caustics;
 mod chain;
 mod convex;
 mod crossing;
@@ -40,6 +41,7 @@ mod watertight;
 mod wide;
 mod world;
 
+pub use caustics::{Balance, CausticMap, CausticsRequest, caustics};
 pub use error::Error;
 pub use frame::{Watch, render, render_watched};
 pub use layers::LAYERS;

@@ -1,7 +1,8 @@
 //! Light from opaque surfaces: painted radiance, or lit by the scene's lights.
 //!
 //! Lights are not blocked and surfaces do not light each other: the same
-//! formula that the GPU side uses.
+//! formula that the GPU side uses. Where a caustic map says what arrives, it
+//! stands in place of that formula, because it holds the direct light too.
 
 use crate::crossing::Crossing;
 use crate::flight::Flight;
@@ -22,9 +23,13 @@ impl Tracer<'_> {
             Surface::Dielectric { .. } => DVec3::ZERO,
             Surface::Unlit { radiance } => colour(radiance, here),
             Surface::Lambert { albedo } => {
-                let irradiance: DVec3 =
-                    self.scene.lights.iter().map(|l| irradiance(l, spot.position, normal)).sum();
-                colour(albedo, here) * irradiance / std::f64::consts::PI
+                let lights = self.scene.lights.iter();
+                let direct = || lights.map(|l| irradiance(l, spot.position, normal)).sum();
+                let own = self.caustics.filter(|map| map.receiver == body.object);
+                let lit = outward.dot(flight.direction) < 0.0;
+                let mapped = own.filter(|_| lit);
+                let mapped = mapped.and_then(|map| map.at(spot.position, spot.normals.geometric));
+                colour(albedo, here) * mapped.unwrap_or_else(direct) / std::f64::consts::PI
             }
         }
     }

@@ -1,7 +1,9 @@
 //! What the reference is asked for.
 
+use crate::caustics::CausticMap;
 use crate::error::Error;
 use scenes::View;
+use std::sync::Arc;
 
 /// An exact image of a scene, and how exact.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,6 +24,9 @@ pub struct Request {
     pub polarised: bool,
     /// What light is made of where media disperse it.
     pub spectrum: Spectrum,
+    /// Light on a receiver, straight and through glass, in place of the direct
+    /// light that shades it otherwise. For [`Level::R2`].
+    pub caustics: Option<Arc<CausticMap>>,
     /// Do not specialise the tracer to the scene. For tests: the image is the
     /// same, bit by bit.
     pub general: bool,
@@ -162,6 +167,7 @@ impl Request {
             restriction: Restriction::default(),
             polarised: false,
             spectrum: Spectrum::Channels,
+            caustics: None,
             general: false,
         }
     }

@@ -1,5 +1,6 @@
 //! What every way of tracing shares: the scene, its light, and where rays start.
 
+use crate::caustics::CausticMap;
 use crate::flight::{Flight, Scratch, Start};
 use crate::media::{Counts, Media};
 use crate::optics::Optics;
@@ -22,6 +23,8 @@ pub(crate) struct Tracer<'a> {
     pub(crate) lookup: EnvironmentLookup,
     /// Winding counts at the eye, if all rays start there.
     pub(crate) eye_counts: Option<Vec<i16>>,
+    /// Light on one of the opaque faces.
+    pub(crate) caustics: Option<&'a CausticMap>,
 }
 
 impl Tracer<'_> {
@@ -61,7 +64,7 @@ impl<'a> Tracer<'a> {
         scene: &'a Scene,
         world: &'a World,
         camera: &Camera,
-        request: &Request,
+        request: &'a Request,
     ) -> Self {
         let restriction = request.restriction;
         let d_line = Optics::new(scene, world, D_LINE_UM, restriction.fresnel);
@@ -71,6 +74,7 @@ impl<'a> Tracer<'a> {
             (0..world.classes.len()).map(|class| media.get(class)).collect()
         });
         let lookup = request.environment_lookup;
-        Self { scene, world, d_line, waves, restriction, lookup, eye_counts }
+        let caustics = request.caustics.as_deref();
+        Self { scene, world, d_line, waves, restriction, lookup, eye_counts, caustics }
     }
 }

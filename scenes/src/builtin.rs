@@ -35,7 +35,7 @@ macro_rules! builtins {
     };
 }
 
-static BUILTINS: [Builtin; 22] = builtins![
+static BUILTINS: [Builtin; 23] = builtins![
     ("ball", QUICK, []),
     ("ice-cube", QUICK, []),
     ("teapot", QUICK, []),
@@ -52,6 +52,7 @@ static BUILTINS: [Builtin; 22] = builtins![
     ("dispersion-ball", MORE, []),
     ("diamond", MORE, []),
     ("prism", MORE, []),
+    ("caustic-ball", MORE, []),
     ("spinning-cup", MORE, []),
     ("wobbling-ball", MORE, []),
     ("absorbing-slab", MORE, []),

@@ -4,12 +4,14 @@
 mod adapter;
 mod adapters;
 mod bench;
+mod caustics;
 mod compare;
 mod exact;
 mod export;
 mod methods;
 mod output;
 mod plan;
+mod progressive;
 mod realtime;
 mod reference;
 mod report;
@@ -46,6 +48,7 @@ enum Command {
     Plan(plan::Args),
     Reference(reference::Args),
     Realtime(realtime::Args),
+    Caustics(caustics::Args),
     Compare(compare::Args),
     Study(study::Args),
     Report(report::Args),
@@ -62,6 +65,7 @@ impl Command {
             Self::Plan(args) => plan::run(args, output),
             Self::Reference(args) => reference::run(args, output),
             Self::Realtime(args) => realtime::run(args, output),
+            Self::Caustics(args) => caustics::run(args, output),
             Self::Compare(args) => compare::run(args, output),
             Self::Study(args) => study::run(args, output),
             Self::Report(args) => report::run(args, output),

@@ -4,9 +4,12 @@ use super::exact::ExactArgs;
 use super::output::Output;
 use super::view::{ImageArgs, ViewArgs};
 use super::{Status, scene};
+use super::{caustics, progressive};
 use crate::Error;
 use crate::progress::Progress;
-use reference::Watch;
+use reference::{Level, Watch};
+use std::sync::Arc;
+use std::time::Instant;
 
 /// Trace the exact image of a scene on the CPU
 #[derive(clap::Args, Debug)]
@@ -20,6 +23,9 @@ pub(super) struct Args {
     view: ViewArgs,
     #[command(flatten)]
     exact: ExactArgs,
+    /// Shade a receiver with a map of `snell caustics`, in place of direct light (level r2)
+    #[arg(long, value_name = "RECEIVER=FILE.exr", help_heading = "Light transport")]
+    caustics: Option<String>,
     #[command(flatten)]
     running: RunningArgs,
 }
@@ -31,13 +37,29 @@ struct RunningArgs {
     /// Threads [default: one per core]; the image is the same, bit by bit, for any number
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
+    /// Write a first image of one ray per pixel at once, then ever finer ones; stopping leaves the
+    /// last
+    #[arg(long)]
+    progressive: bool,
 }
 
 pub(super) fn run(args: &Args, output: Output) -> Result<Status, Error> {
+    let started = Instant::now();
     let scene = scene(&args.scene)?;
     let view = args.image.shown(args.view.view(&scene));
-    let request = args.exact.request(view, args.view.positions_given())?;
+    let mut request = args.exact.request(view, args.view.positions_given())?;
+    if let Some(text) = &args.caustics {
+        if request.level != Level::R2 {
+            let what = "--caustics shades opaque surfaces, which only --level r2 shows";
+            return Err(Error::Usage(format!("{what}\nwrite --level r2")));
+        }
+        request.caustics = Some(Arc::new(caustics::read(&scene, text, request.view.frame)?));
+    }
     args.running.within(|| {
+        if args.running.progressive {
+            let rendering = progressive::render(&scene, &request, &args.image, started)?;
+            return args.image.answer(&rendering, output);
+        }
         let progress = Progress::new(&format!("tracing {}", scene.name));
         let watch = Watch { progress: Some(&|share| progress.at(share)), ..Watch::default() };
         let rendering = reference::render_watched(&scene, &request, watch)?;

@@ -157,6 +157,12 @@ fn image_path(text: &str) -> Result<PathBuf, String> {
     }
 }
 
+/// Reads the name of a .exr file.
+pub(super) fn exr_path(text: &str) -> Result<PathBuf, String> {
+    let path = image_path(text)?;
+    if is_png(&path) { Err("write a name that ends in .exr".into()) } else { Ok(path) }
+}
+
 /// Reads `WIDTHxHEIGHT`, or one number for both.
 pub(super) fn resolution(text: &str) -> Result<[u32; 2], String> {
     let (width, height) = text.split_once(['x', 'X']).unwrap_or((text, text));
