@@ -101,7 +101,8 @@ fn own<'a>(
         return Ok((bodies.clone(), resources));
     }
     let bytes = uniforms::bytes_of(&frame::numbers(view, 0));
-    let buffer = bodies.allocator.filled(FRAME_OF_LAYERS, &bytes, BufferUsages::UNIFORM)?;
+    let usage = BufferUsages::UNIFORM | BufferUsages::STORAGE;
+    let buffer = bodies.allocator.filled(FRAME_OF_LAYERS, &bytes, usage)?;
     shown.buffer("peel_frame", buffer.clone());
     resources.buffer("frame", buffer);
     Ok((bodies.clone().resized(peel.resolution_px), resources))

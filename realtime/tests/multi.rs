@@ -91,7 +91,18 @@ fn exact(body: &Body, mut origin: DVec3, mut d: DVec3) -> Option<DVec3> {
 
 /// Share of pixels within one degree, and the mean angle in degrees.
 fn errors(gpu: &Gpu, body: &Body, size_px: u32, method: &str) -> (f64, f64) {
-    let scene = scene(body, size_px);
+    errors_seen(gpu, body, &scene(body, size_px), method, &[])
+}
+
+/// The same from another camera, with parameters.
+fn errors_seen(
+    gpu: &Gpu,
+    body: &Body,
+    scene: &Scene,
+    method: &str,
+    parameters: &[(&str, &str)],
+) -> (f64, f64) {
+    let [size_px, _] = scene.camera.resolution_px;
     let request = Request {
         view: View {
             resolution_px: [size_px, size_px],
@@ -100,12 +111,12 @@ fn errors(gpu: &Gpu, body: &Body, size_px: u32, method: &str) -> (f64, f64) {
             layers: vec![LayerName::Exit],
         },
         method: method.to_owned(),
-        parameters: [].into(),
+        parameters: parameters.iter().map(|(n, v)| ((*n).into(), (*v).into())).collect(),
         filter: Filter::Manual,
         timing: None,
         elide: true,
     };
-    let rendering = render(gpu, &scene, &request).unwrap();
+    let rendering = render(gpu, scene, &request).unwrap();
     let layer = rendering.layers.get(&LayerName::Exit).unwrap();
     let (mut within, mut sum, mut count) = (0.0, 0.0, 0.0);
     for (index, found) in layer.data.chunks_exact(3).enumerate() {
@@ -122,6 +133,37 @@ fn errors(gpu: &Gpu, body: &Body, size_px: u32, method: &str) -> (f64, f64) {
         count += 1.0;
     }
     (within / count, sum / count)
+}
+
+/// Light that leaves through a part of the body that the image does not show is
+/// lost to layers of the image, and not to layers with a camera of their own.
+#[test]
+fn layers_with_a_camera_of_their_own_hold_what_the_image_cuts_off() {
+    let gpu = Gpu::open(None).unwrap();
+    let body = Body { eta: 1.5, hole: None };
+    let aside = 1.4 * DVec3::X;
+    for projection in [
+        Projection::Orthographic { height_m: 2.1 },
+        Projection::Perspective { vertical_fov_deg: 30.0 },
+    ] {
+        let mut scene = scene(&body, 256);
+        let Camera { eye, target, .. } = scene.camera;
+        scene.camera =
+            Camera { eye: eye + aside, target: target + aside, projection, ..scene.camera };
+        for method in ["multi", "multi-paper"] {
+            let seen = |camera: &str, edge_px: &str| {
+                let parameters = [("peel_camera", camera), ("peel_px", edge_px)];
+                let parameters = if camera == "screen" { &parameters[..1] } else { &parameters };
+                errors_seen(&gpu, &body, &scene, method, parameters)
+            };
+            let (screen, fitted) = (seen("screen", "0"), seen("fitted", "1024"));
+            assert!(screen.0 < 0.6, "{method} {projection:?}: {screen:?}");
+            assert!(fitted.0 > 0.95 && fitted.1 < 0.3, "{method} {projection:?}: {fitted:?}");
+            // It is as precise as it has pixels.
+            let coarse = seen("fitted", "128");
+            assert!(coarse.1 > 3.0 * fitted.1, "{method} {projection:?}: {coarse:?} {fitted:?}");
+        }
+    }
 }
 
 const SHELL: Option<(DVec3, f64)> = Some((DVec3::ZERO, 0.8));

@@ -17,6 +17,7 @@ fn march_paper(start_lc: vec3f, start_d_ws: vec3f, eta_inside: f32, eta_outside:
     var n = 1u;
     var steps = 0u;
     var inside = true;
+    var begun = false;
     let tolerance_m = 1e-5 * frame.radius_m;
     let shortest_m = 0.5 * peel_footprint_m(peel_depth_m(start_lc));
     loop {
@@ -32,10 +33,14 @@ fn march_paper(start_lc: vec3f, start_d_ws: vec3f, eta_inside: f32, eta_outside:
         }
         let near_m = layer_depth_m(pixel, n - 1u);
         let far_m = layer_depth_m(pixel, n);
-        if (peel_depth_m(chain.p_lc) < near_m - tolerance_m) {
+        // Layers of another camera than the image's may begin a little behind the
+        // surface: only a point that was behind its layer can come before it again.
+        let before = peel_depth_m(chain.p_lc) < near_m - tolerance_m;
+        if (before && begun) {
             n -= 1u;
             continue;
         }
+        begun |= !before;
         let step_m = max((far_m - near_m) / LINEAR_PROBE_DIV, shortest_m);
         let q_lc = chain.p_lc + step_m * chain.d_ws;
         if (!in_layers(pixel_of(q_lc)) || peel_depth_m(q_lc) < paper_gap_end_m(q_lc, n)) {

@@ -3,7 +3,8 @@
 //
 // Needs PEEL_PERSPECTIVE.
 
-@group(0) @binding(28) var<uniform> peel_frame: Frame;
+// Storage: lavapipe of Mesa 22.3 crashes on a fourth uniform buffer in a compute pass.
+@group(0) @binding(28) var<storage, read> peel_frame: Frame;
 
 fn peel_px(p_lc: vec3f) -> vec2f {
     let from_eye = p_lc - peel_frame.eye_lc;

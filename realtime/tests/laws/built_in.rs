@@ -33,6 +33,5 @@ fn every_method_executes_its_plan_and_leaving_out_changes_no_image() {
             pairs += 1;
         }
     }
-    println!("{pairs} pairs of scene and method");
     assert!(pairs >= 20 * METHODS.len(), "{pairs}");
 }

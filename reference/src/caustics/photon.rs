@@ -35,7 +35,7 @@ impl Draws {
 
     fn next(&mut self) -> f64 {
         self.drawn += 1;
-        if self.drawn % 2 == 0 {
+        if self.drawn.is_multiple_of(2) {
             return self.kept;
         }
         let [first, second] = self.points.pair(self.sample, self.drawn / 2);
