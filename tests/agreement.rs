@@ -42,15 +42,17 @@ fn differences(a: &[DVec3], b: &[DVec3]) -> (Vec<f64>, usize) {
     (angles, one.count())
 }
 
-/// Closed built-in scenes of one medium that need no download.
+/// Every built-in scene whose files are there, in light that is the same
+/// everywhere.
 fn bodies() -> Vec<Scene> {
-    ["ball", "ice-cube", "teapot", "cup", "box", "ball-orthographic"]
-        .map(|name| {
-            let mut scene = scenes::builtin(name).unwrap();
-            scene.environment = Environment::Uniform(DVec3::ONE);
-            scene
-        })
-        .into()
+    let load = |builtin: &scenes::Builtin| match builtin.load() {
+        Ok(scene) => Some(Scene { environment: Environment::Uniform(DVec3::ONE), ..scene }),
+        Err(_) if builtin.missing().is_some() => None,
+        Err(error) => panic!("{}: {error}", builtin.name),
+    };
+    let scenes: Vec<Scene> = scenes::builtins().iter().filter_map(load).collect();
+    assert!(scenes.len() > 20, "{}", scenes.len());
+    scenes
 }
 
 /// Snell's law at the first surface: within 3e-5 rad in 99.5 % of pixels. The
@@ -65,13 +67,19 @@ fn one_interface_is_the_exact_direction_after_the_first_event() {
         let (angles, one) = differences(&fast, &slow);
         let close = angles.iter().filter(|angle| **angle < 3e-5).count();
         assert!(angles.len() > 500, "{}: {} pixels", scene.name, angles.len());
+        // A hole that reaches out of its body begins with a surface where light goes
+        // straight on; the exact first event lies behind it. And the straw that stands
+        // in it is there on the GPU alone: R0 is of glass only.
+        let hollow = scene.name == "glass-of-water";
+        let needed = if hollow { 0.96 } else { 0.995 };
         assert!(
-            close as f64 >= 0.995 * angles.len() as f64,
+            close as f64 >= needed * angles.len() as f64,
             "{}: {close} of {}",
             scene.name,
             angles.len()
         );
-        assert!(one as f64 <= 0.005 * f64::from(SIZE_PX * SIZE_PX), "{}: {one}", scene.name);
+        let allowed = if hollow { 0.01 } else { 0.005 };
+        assert!(one as f64 <= allowed * f64::from(SIZE_PX * SIZE_PX), "{}: {one}", scene.name);
     }
 }
 
@@ -95,6 +103,7 @@ fn a_body_of_index_one_is_invisible() {
     for mut scene in bodies() {
         for medium in &mut scene.media {
             medium.eta = Eta::VACUUM;
+            medium.dispersion = scenes::Dispersion::None;
         }
         let straight = approximate(&gpu, &scene, "undeviated", &LayerName::Exit);
         for method in ["one-interface", "two-interface", "multi", "multi-paper"] {
