@@ -29,6 +29,7 @@ mod polarised;
 mod policy;
 mod request;
 mod sampling;
+mod soup;
 mod spectrum;
 mod stokes;
 mod topology;

@@ -1,7 +1,7 @@
 //! Triangles and rays without optics, for benchmarks and for tools.
 
 use crate::line::Line;
-use crate::triangle::Triangle;
+use crate::soup::Soup;
 use crate::wide::{Detected, Instructions, Query, Stack, Tree, TriangleHit};
 use glam::DVec3;
 use scenes::Ray;
@@ -34,13 +34,7 @@ impl Triangles {
     /// 2²⁸ of them.
     #[must_use]
     pub fn build(corners: &[[DVec3; 3]]) -> Self {
-        let triangle = |(id, corners): (usize, &[DVec3; 3])| Triangle {
-            corners: corners.map(|corner| corner.to_array()),
-            id: id as u32,
-            body: 0,
-        };
-        let triangles = corners.iter().enumerate().map(triangle).collect();
-        let tree = Arc::new(Tree::build(triangles));
+        let tree = Arc::new(Tree::build(&Soup::of_corners(corners)));
         Self { instructions: tree.instructions, tree, stack: Stack::default() }
     }
 

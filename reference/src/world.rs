@@ -6,7 +6,7 @@ use crate::normals::{Smooth, smooth_normals};
 use crate::request::Level;
 use crate::topology::unmatched_edges;
 
-use crate::triangle::Triangle;
+use crate::soup::Soup;
 use crate::wide::{MOST_TRIANGLES, Tree};
 use glam::{DAffine3, DMat3, DVec3};
 use scenes::air::bubbles;
@@ -114,7 +114,7 @@ impl World {
             classes,
             bounds: [DVec3::INFINITY, DVec3::NEG_INFINITY],
         };
-        let mut triangles = Vec::with_capacity(count);
+        let mut triangles = Soup::default();
         let time_s = scene.time_s(frame);
         for (index, object) in objects {
             world.add(index, object, time_s, air, &mut triangles)?;
@@ -126,7 +126,7 @@ impl World {
         for (index, analytic) in world.analytic.iter_mut().enumerate() {
             analytic.id = world.first_analytic + 2 * index as u32;
         }
-        world.tree = Tree::build(triangles);
+        world.tree = Tree::build(&triangles);
         Ok(world)
     }
 
@@ -137,7 +137,7 @@ impl World {
         object: &Object,
         time_s: f64,
         air: MediumId,
-        triangles: &mut Vec<Triangle>,
+        triangles: &mut Soup,
     ) -> Result<(), Error> {
         let place = object.world_from_object_at(time_s);
         let shape = object.shape_at(time_s);
@@ -174,13 +174,13 @@ impl World {
         mut body: Body,
         shape: &Arc<Shape>,
         normals: Normals,
-        triangles: &mut Vec<Triangle>,
+        triangles: &mut Soup,
     ) {
         let number = self.bodies.len() as u32;
         let normal_from_object = body.object_from_world.matrix3.transpose();
         body.first_id = triangles.len() as u32;
-        if let Shape::Mesh(mesh) = shape.as_ref() {
-            bake(mesh, body.world_from_object, body.first_id, number, triangles);
+        if shape.mesh().is_some() {
+            triangles.add(shape, body.world_from_object, number);
             if normals == Normals::Smooth {
                 body.smooth = smooth_normals(shape, normal_from_object);
             }
@@ -272,19 +272,6 @@ fn classes_of(objects: &[(usize, &Object)], air: MediumId) -> Vec<Class> {
     classes.sort_by_key(|class| (std::cmp::Reverse(class.priority), class.medium));
     classes.dedup();
     classes
-}
-
-/// World-space triangles of a mesh. Each vertex is transformed once, so that
-/// triangles which share it share its bits.
-fn bake(mesh: &Mesh, place: DAffine3, first_id: u32, body: u32, into: &mut Vec<Triangle>) {
-    let positions: Vec<[f64; 3]> =
-        mesh.positions.iter().map(|p| place.transform_point3(*p).to_array()).collect();
-    let mirrored = place.matrix3.determinant() < 0.0;
-    into.extend(mesh.triangles.iter().enumerate().map(|(i, corners)| {
-        let [a, b, c] = corners.map(|corner| positions[corner as usize]);
-        let corners = if mirrored { [a, c, b] } else { [a, b, c] };
-        Triangle { corners, id: first_id + i as u32, body }
-    }));
 }
 
 impl Analytic {

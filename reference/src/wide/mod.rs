@@ -18,6 +18,7 @@ pub use instructions::Instructions;
 pub(crate) use stack::Stack;
 pub(crate) use walk::{Query, TriangleHit};
 
+use crate::soup::Soup;
 use crate::triangle::Triangle;
 use collapse::{Costs, Part};
 use glam::DVec3;
@@ -58,18 +59,19 @@ impl Default for Tree {
 impl Tree {
     /// Builds the tree; the number of triangles is at most [`MOST_TRIANGLES`].
     /// Triangles with a corner that is not finite are left out.
-    pub(crate) fn build(mut triangles: Vec<Triangle>) -> Self {
-        triangles.retain(|t| t.corners.iter().flatten().all(|x| x.is_finite()));
+    pub(crate) fn build(soup: &Soup) -> Self {
+        let triangles = Finite::of(soup);
         let mut tree = Self { count: triangles.len(), ..Self::default() };
-        if triangles.is_empty() {
+        if tree.count == 0 {
             return tree;
         }
-        let (low, high) = triangles
-            .par_iter()
-            .map(bounds)
+        let all = || (0..tree.count).into_par_iter().map(|i| triangles.get(i));
+        let (low, high) = all()
+            .map(|t| bounds(&t))
             .reduce(|| (DVec3::INFINITY, DVec3::NEG_INFINITY), |a, b| (a.0.min(b.0), a.1.max(b.1)));
-        tree.unit = Unit::around(low, high);
-        let boxes: Vec<Aabb> = triangles.par_iter().map(|t| unit_box(t, &tree.unit)).collect();
+        let unit = Unit::around(low, high);
+        let boxes: Vec<Aabb> = all().map(|t| unit_box(&t, &unit)).collect();
+        tree.unit = unit;
         let bvh = build_bvh2(&boxes, parameters(boxes.len()), &mut std::time::Duration::default());
         drop(boxes);
         tree.fill(&bvh, &triangles);
@@ -78,7 +80,7 @@ impl Tree {
 
     /// Copies the best wide form of a binary tree, depth first, so that what is
     /// visited together lies together.
-    fn fill(&mut self, bvh: &Bvh2, triangles: &[Triangle]) {
+    fn fill(&mut self, bvh: &Bvh2, triangles: &Finite<'_>) {
         let costs = Costs::new(bvh);
         // About a third of the triangles are blocks, and a sixth of those nodes.
         // Room that is never written to takes no memory; growing would take twice.
@@ -117,12 +119,12 @@ impl Tree {
         }
     }
 
-    fn block(&mut self, costs: &Costs<'_>, indices: Vec<usize>, triangles: &[Triangle]) -> Child {
+    fn block(&mut self, costs: &Costs<'_>, indices: Vec<usize>, of: &Finite<'_>) -> Child {
         let mut block = Block::EMPTY;
         let mut list = Vec::with_capacity(LANES);
         costs.triangles(indices, &mut list);
         for (lane, triangle) in list.into_iter().enumerate() {
-            block.set(lane, &triangles[triangle as usize]);
+            block.set(lane, &of.get(triangle as usize));
         }
         self.blocks.push(block);
         Child::block(self.blocks.len() - 1)
@@ -149,6 +151,30 @@ impl Tree {
     /// Bytes held.
     pub(crate) fn bytes(&self) -> u64 {
         (self.nodes.len() * size_of::<Node>() + self.blocks.len() * size_of::<Block>()) as u64
+    }
+}
+
+/// The triangles of a soup whose corners are finite.
+struct Finite<'a> {
+    soup: &'a Soup,
+    /// Their numbers, if some are not.
+    kept: Option<Vec<u32>>,
+}
+
+impl<'a> Finite<'a> {
+    fn of(soup: &'a Soup) -> Self {
+        let all = 0..soup.len() as u32;
+        let finite = |id: &u32| soup.triangle(*id).corners.iter().flatten().all(|x| x.is_finite());
+        let whole = all.clone().into_par_iter().all(|id| finite(&id));
+        Self { soup, kept: (!whole).then(|| all.filter(finite).collect()) }
+    }
+
+    fn len(&self) -> usize {
+        self.kept.as_ref().map_or(self.soup.len(), Vec::len)
+    }
+
+    fn get(&self, index: usize) -> Triangle {
+        self.soup.triangle(self.kept.as_ref().map_or(index as u32, |kept| kept[index]))
     }
 }
 
