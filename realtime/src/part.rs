@@ -58,7 +58,8 @@ pub(crate) fn parts(request: &Request, outputs: &[&'static str]) -> Vec<Part> {
     }
     let single = outputs.iter().copied().filter(|output| k == 1 || *output != "radiance");
     let single: Vec<_> = single.collect();
-    if !single.is_empty() || !buffers(request).is_empty() || parts.is_empty() {
+    let nothing_else = parts.is_empty() && request.timing.is_none();
+    if !single.is_empty() || !buffers(request).is_empty() || nothing_else {
         let label = if parts.is_empty() { "" } else { "centre: " };
         let request = reduced(|_| true, request.filter);
         parts.push(Part { label, request, outputs: single, scale: 1 });

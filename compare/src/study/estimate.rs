@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 const PROBE_PX: u32 = 32;
 /// Seconds per image for everything but tracing and timing: compiling
 /// shaders, reading back, metrics, writing.
-const OVERHEAD_S: f64 = 0.6;
+const OVERHEAD_S: f64 = 0.9;
 
 /// What a study is going to do.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
