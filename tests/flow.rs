@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a missing file or value must fail its test")]
 
 use compare::image_pair::read_image;
-use compare::results::{ResultRow, RowKind, read_rows, read_study};
+use compare::results::{REFERENCE, ResultRow, RowKind, read_rows, read_study, saved_ms};
 use scenes::LayerName;
 use snell_tests::run;
 use std::path::Path;
@@ -98,7 +98,12 @@ fn a_study_says_what_it_judged_and_a_warm_one_repeats_its_numbers() {
     assert!(page.contains("eta = 1.37"), "the report does not show the scene's index");
     let found = read_study(&folder.join("cold")).unwrap();
     assert_eq!(found.scenes[0].toml, ball(1.37));
+    let rows = read_rows(&folder.join("cold")).unwrap();
     for run in &found.runs {
+        // What leaving out saves is measured, and the exact renderer's is not.
+        let of_run = rows.iter().filter(|row| row.id == run.id);
+        let saved = saved_ms(of_run, &found.time_metric);
+        assert_eq!(saved.is_some(), run.method != REFERENCE, "{}", run.method);
         assert!(folder.join("cold").join(&run.image).is_file(), "{:?}", run.image);
     }
 
