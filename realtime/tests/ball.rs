@@ -3,47 +3,24 @@
 
 #![allow(clippy::unwrap_used, reason = "a failing test may panic")]
 
-use glam::{DAffine3, DVec2, DVec3};
+use glam::{DVec2, DVec3};
 use realtime::{Filter, Gpu, Request, render};
-use scenes::scene::{Judgement, Normals, Sequence, Source};
-use scenes::{Camera, Environment, Eta, LayerName, Medium, MediumId, Object, Projection};
-use scenes::{Scene, Shape, Surface, View};
-use std::sync::Arc;
+use scenes::{Camera, Eta, LayerName, Medium, MediumId, Object, Projection};
+use scenes::{Scene, Shape, View};
 
 const SIZE_PX: u32 = 512;
 
 fn ball(eta: f64) -> Scene {
-    let object = Object {
-        name: "ball".to_owned(),
-        shape: Arc::new(Shape::Sphere { radius_m: 1.0 }),
-        surface: Surface::Dielectric { medium: MediumId(1), priority: 0 },
-        world_from_object: DAffine3::IDENTITY,
-        normals: Normals::Smooth,
-        motion: None,
-        deform: None,
-        bump: None,
-        crack: None,
-        air: None,
+    let camera = Camera {
+        eye: DVec3::new(0.0, 0.0, 4.0),
+        target: DVec3::ZERO,
+        up: DVec3::Y,
+        projection: Projection::Orthographic { height_m: 2.1 },
+        resolution_px: [SIZE_PX, SIZE_PX],
     };
-    Scene {
-        name: "ball".to_owned(),
-        title: "A ball".to_owned(),
-        source: Source::default(),
-        camera: Camera {
-            eye: DVec3::new(0.0, 0.0, 4.0),
-            target: DVec3::ZERO,
-            up: DVec3::Y,
-            projection: Projection::Orthographic { height_m: 2.1 },
-            resolution_px: [SIZE_PX, SIZE_PX],
-        },
-        environment: Environment::Uniform(DVec3::ONE),
-        media: vec![Medium::vacuum(), Medium::plain("glass", Eta::try_from(eta).unwrap())],
-        objects: vec![object],
-        lights: vec![],
-        sequence: Sequence { frames: 1, seconds_per_frame: 1.0 },
-        judgement: Judgement::default(),
-        warnings: vec![],
-    }
+    let media = vec![Medium::vacuum(), Medium::plain("glass", Eta::try_from(eta).unwrap())];
+    let ball = Object::solid("ball", Shape::Sphere { radius_m: 1.0 }, MediumId(1));
+    Scene::in_white_light("ball", camera, media, vec![ball])
 }
 
 fn mean_angle_deg(gpu: &Gpu, eta: f64, method: &str, parameters: &[(&str, &str)]) -> f64 {

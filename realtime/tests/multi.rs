@@ -6,10 +6,8 @@
 
 use glam::{DAffine3, DVec2, DVec3};
 use realtime::{Filter, Gpu, Request, render};
-use scenes::scene::{Judgement, Normals, Sequence, Source};
-use scenes::{Camera, Environment, Eta, LayerName, Medium, MediumId, Object, Projection};
+use scenes::{Camera, Eta, LayerName, Medium, MediumId, Object, Projection};
 use scenes::{Scene, Shape, Surface, View};
-use std::sync::Arc;
 
 /// A ball of radius 1 about the origin, of glass, with at most one hole.
 struct Body {
@@ -19,38 +17,21 @@ struct Body {
 
 fn scene(body: &Body, size_px: u32) -> Scene {
     let ball = |name: &str, centre, radius_m, medium, priority| Object {
-        name: name.to_owned(),
-        shape: Arc::new(Shape::Sphere { radius_m }),
         surface: Surface::Dielectric { medium: MediumId(medium), priority },
         world_from_object: DAffine3::from_translation(centre),
-        normals: Normals::Smooth,
-        motion: None,
-        deform: None,
-        bump: None,
-        crack: None,
-        air: None,
+        ..Object::solid(name, Shape::Sphere { radius_m }, MediumId(medium))
     };
     let mut objects = vec![ball("glass", DVec3::ZERO, 1.0, 1, 0)];
     objects.extend(body.hole.map(|(centre, radius_m)| ball("hole", centre, radius_m, 0, 1)));
-    Scene {
-        name: "nested".to_owned(),
-        title: "Nested balls".to_owned(),
-        source: Source::default(),
-        camera: Camera {
-            eye: DVec3::new(0.0, 0.0, 4.0),
-            target: DVec3::ZERO,
-            up: DVec3::Y,
-            projection: Projection::Orthographic { height_m: 2.1 },
-            resolution_px: [size_px, size_px],
-        },
-        environment: Environment::Uniform(DVec3::ONE),
-        media: vec![Medium::vacuum(), Medium::plain("glass", Eta::try_from(body.eta).unwrap())],
-        objects,
-        lights: vec![],
-        sequence: Sequence { frames: 1, seconds_per_frame: 1.0 },
-        judgement: Judgement::default(),
-        warnings: vec![],
-    }
+    let camera = Camera {
+        eye: DVec3::new(0.0, 0.0, 4.0),
+        target: DVec3::ZERO,
+        up: DVec3::Y,
+        projection: Projection::Orthographic { height_m: 2.1 },
+        resolution_px: [size_px, size_px],
+    };
+    let glass = Medium::plain("glass", Eta::try_from(body.eta).unwrap());
+    Scene::in_white_light("nested", camera, vec![Medium::vacuum(), glass], objects)
 }
 
 /// Exit direction of the chain that always transmits; `None` where it misses

@@ -4,48 +4,29 @@
 use glam::{DAffine3, DVec3};
 use realtime::{Filter, Gpu, Request, Timing, plan, render};
 use scenes::layer::flag;
-use scenes::scene::{Judgement, Normals, Sequence, Source};
 use scenes::{
-    Camera, Environment, Eta, LayerName, Medium, MediumId, Object, Projection, Rendering, Scene,
-    Shape, Surface, View,
+    Camera, Eta, LayerName, Medium, MediumId, Object, Projection, Rendering, Scene, Shape, Surface,
+    View,
 };
-use std::sync::{Arc, LazyLock};
+use std::sync::LazyLock;
 
 static GPU: LazyLock<Gpu> = LazyLock::new(|| Gpu::open(None).unwrap());
 const WAYS: [&str; 4] = ["slots", "everitt", "dual", "cascade"];
 
 fn scene(shapes: &[Shape], centre: DVec3) -> Scene {
     let object = |shape: &Shape| Object {
-        name: "body".into(),
-        shape: Arc::new(shape.clone()),
-        surface: Surface::Dielectric { medium: MediumId(1), priority: 0 },
         world_from_object: DAffine3::from_translation(centre),
-        normals: Normals::Smooth,
-        motion: None,
-        deform: None,
-        bump: None,
-        crack: None,
-        air: None,
+        ..Object::solid("body", shape.clone(), MediumId(1))
     };
-    Scene {
-        name: "layers".into(),
-        title: String::new(),
-        source: Source::default(),
-        camera: Camera {
-            eye: DVec3::new(0.7, 1.9, 4.1),
-            target: DVec3::ZERO,
-            up: DVec3::Y,
-            projection: Projection::Perspective { vertical_fov_deg: 38.0 },
-            resolution_px: [256, 256],
-        },
-        environment: Environment::Uniform(DVec3::ONE),
-        media: vec![Medium::vacuum(), Medium::plain("glass", Eta::try_from(1.5).unwrap())],
-        objects: shapes.iter().map(object).collect(),
-        lights: Vec::new(),
-        sequence: Sequence { frames: 1, seconds_per_frame: 1.0 },
-        judgement: Judgement::default(),
-        warnings: Vec::new(),
-    }
+    let camera = Camera {
+        eye: DVec3::new(0.7, 1.9, 4.1),
+        target: DVec3::ZERO,
+        up: DVec3::Y,
+        projection: Projection::Perspective { vertical_fov_deg: 38.0 },
+        resolution_px: [256, 256],
+    };
+    let media = vec![Medium::vacuum(), Medium::plain("glass", Eta::try_from(1.5).unwrap())];
+    Scene::in_white_light("layers", camera, media, shapes.iter().map(object).collect())
 }
 
 fn mesh(name: &str) -> Shape {

@@ -26,6 +26,7 @@ pub mod mesh;
 pub mod noise;
 pub mod normals;
 pub mod obj;
+mod plain;
 pub mod plan;
 mod pose;
 mod proxy;

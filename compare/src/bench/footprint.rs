@@ -1,15 +1,12 @@
 //! How long a large scene takes to build, and how much memory.
 
 use super::BenchError;
-use glam::{DAffine3, DVec3};
 use reference::{Level, Request, Watch, render_watched};
-use scenes::scene::{Judgement, Normals, Sequence, Source};
 use scenes::{
-    Camera, Environment, Eta, LayerName, Medium, MediumId, Mesh, Object, Scene, Shape, Surface,
-    View, generate,
+    Camera, Eta, LayerName, Medium, MediumId, Mesh, Object, Scene, Shape, View, generate,
 };
 use serde::Serialize;
-use std::sync::{Arc, OnceLock};
+use std::sync::OnceLock;
 
 /// Pixels of the image, each side: enough to touch the tree.
 const IMAGE_PX: u32 = 64;
@@ -69,32 +66,9 @@ pub fn footprint(triangles: u32) -> Result<Footprint, BenchError> {
 /// A glass body in a white world.
 fn scene(mesh: Mesh) -> Scene {
     let camera = Camera::fitted(mesh.bounds(), [IMAGE_PX; 2]);
-    let object = Object {
-        name: "body".to_owned(),
-        shape: Arc::new(Shape::Mesh(mesh)),
-        surface: Surface::Dielectric { medium: MediumId(1), priority: 0 },
-        world_from_object: DAffine3::IDENTITY,
-        normals: Normals::Smooth,
-        motion: None,
-        deform: None,
-        bump: None,
-        crack: None,
-        air: None,
-    };
+    let body = Object::solid("body", Shape::Mesh(mesh), MediumId(1));
     let glass = Medium::plain("glass", Eta::try_from(super::ETA).unwrap_or(Eta::VACUUM));
-    Scene {
-        name: "footprint".to_owned(),
-        title: "A ball with bumps".to_owned(),
-        source: Source::default(),
-        camera,
-        environment: Environment::Uniform(DVec3::ONE),
-        media: vec![Medium::vacuum(), glass],
-        objects: vec![object],
-        lights: vec![],
-        sequence: Sequence { frames: 1, seconds_per_frame: 1.0 },
-        judgement: Judgement::default(),
-        warnings: vec![],
-    }
+    Scene::in_white_light("a ball with bumps", camera, vec![Medium::vacuum(), glass], vec![body])
 }
 
 /// Memory of this process, bytes.

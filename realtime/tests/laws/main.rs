@@ -13,7 +13,7 @@ mod requests;
 
 use glam::{DAffine3, DVec3};
 use realtime::{Filter, Gpu, Request};
-use scenes::scene::{Judgement, Normals, Object, Sequence, Source};
+use scenes::scene::{Normals, Object};
 use scenes::{
     Camera, Environment, Eta, LayerName, Layers, Medium, MediumId, Projection, Scene, Shape,
     Surface, View,
@@ -40,34 +40,11 @@ fn perspective(eye: DVec3, resolution_px: [u32; 2]) -> Camera {
 
 fn scene_of(shape: Shape, eta: f64, camera: Camera) -> Scene {
     let glass = Medium::plain("glass", Eta::try_from(eta).unwrap());
-    Scene {
-        name: "test".into(),
-        title: String::new(),
-        source: Source::default(),
-        camera,
-        environment: Environment::Uniform(DVec3::ONE),
-        media: vec![Medium::vacuum(), glass],
-        objects: vec![object(shape)],
-        lights: Vec::new(),
-        sequence: Sequence { frames: 1, seconds_per_frame: 1.0 },
-        judgement: Judgement::default(),
-        warnings: Vec::new(),
-    }
+    Scene::in_white_light("test", camera, vec![Medium::vacuum(), glass], vec![object(shape)])
 }
 
 fn object(shape: Shape) -> Object {
-    Object {
-        name: "body".into(),
-        shape: Arc::new(shape),
-        surface: Surface::Dielectric { medium: MediumId(1), priority: 0 },
-        world_from_object: DAffine3::IDENTITY,
-        normals: Normals::Smooth,
-        motion: None,
-        deform: None,
-        bump: None,
-        crack: None,
-        air: None,
-    }
+    Object::solid("body", shape, MediumId(1))
 }
 
 fn request(scene: &Scene, method: &str, layers: &[LayerName]) -> Request {

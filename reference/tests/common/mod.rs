@@ -2,12 +2,11 @@
 #![allow(dead_code, reason = "each test file uses its part")]
 #![allow(unreachable_pub, reason = "shared by test files")]
 
-use glam::{DAffine3, DVec3};
-use scenes::scene::{Judgement, Normals, Sequence, Source};
-use scenes::{Camera, Environment, Eta, LayerName, Medium, MediumId, Mesh, Object, Projection};
-use scenes::{Scene, Shape, Surface, View};
+use glam::DVec3;
+use scenes::scene::{Normals, Sequence};
+use scenes::{Camera, Eta, LayerName, Medium, MediumId, Mesh, Object, Projection};
+use scenes::{Scene, Shape, View};
 use std::collections::HashMap;
-use std::sync::Arc;
 
 /// A unit sphere from an icosahedron whose triangles are divided `levels` times.
 pub fn icosphere(levels: u32) -> Mesh {
@@ -159,42 +158,23 @@ pub fn meshes() -> Vec<(&'static str, Mesh)> {
 
 /// An object of a medium at the origin.
 pub fn object(shape: Shape, medium: u16, normals: Normals) -> Object {
-    Object {
-        name: "body".to_owned(),
-        shape: Arc::new(shape),
-        surface: Surface::Dielectric { medium: MediumId(medium), priority: 0 },
-        world_from_object: DAffine3::IDENTITY,
-        normals,
-        motion: None,
-        deform: None,
-        bump: None,
-        crack: None,
-        air: None,
-    }
+    Object { normals, ..Object::solid("body", shape, MediumId(medium)) }
 }
 
 /// Objects in a uniform environment of radiance 1, media glass (index 1) and
 /// vacuum (index 0).
 pub fn furnace(objects: Vec<Object>, eta: f64) -> Scene {
-    let glass = Eta::try_from(eta).expect("a valid index");
+    let glass = Medium::plain("glass", Eta::try_from(eta).expect("a valid index"));
+    let camera = Camera {
+        eye: DVec3::new(1.3, 1.1, 2.9),
+        target: DVec3::ZERO,
+        up: DVec3::Y,
+        projection: Projection::Perspective { vertical_fov_deg: 40.0 },
+        resolution_px: [64, 64],
+    };
     Scene {
-        name: "furnace".to_owned(),
-        title: String::new(),
-        source: Source::default(),
-        camera: Camera {
-            eye: DVec3::new(1.3, 1.1, 2.9),
-            target: DVec3::ZERO,
-            up: DVec3::Y,
-            projection: Projection::Perspective { vertical_fov_deg: 40.0 },
-            resolution_px: [64, 64],
-        },
-        environment: Environment::Uniform(DVec3::ONE),
-        media: vec![Medium::vacuum(), Medium::plain("glass", glass)],
-        objects,
-        lights: Vec::new(),
         sequence: Sequence { frames: 1, seconds_per_frame: 0.04 },
-        judgement: Judgement::default(),
-        warnings: Vec::new(),
+        ..Scene::in_white_light("furnace", camera, vec![Medium::vacuum(), glass], objects)
     }
 }
 

@@ -120,10 +120,9 @@ fn refuse_overlaps(scene: &Scene, format: Format) -> Result<(), ExportError> {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a failing test may panic")]
     use super::*;
-    use crate::scene::{Judgement, Normals, Sequence, Source};
+    use crate::scene::Normals;
     use crate::{Camera, Environment, Eta, Medium, MediumId, Mesh, Object, Projection, Shape};
     use glam::{DAffine3, DVec3};
-    use std::sync::Arc;
 
     fn tetrahedron() -> Shape {
         Shape::Mesh(Mesh {
@@ -135,37 +134,19 @@ mod tests {
 
     fn scene(shape: Shape) -> Scene {
         let object = Object {
-            name: "body".to_owned(),
-            shape: Arc::new(shape),
-            surface: Surface::Dielectric { medium: MediumId(1), priority: 0 },
             world_from_object: DAffine3::from_translation(DVec3::new(0.0, 0.0, 2.0)),
             normals: Normals::Flat,
-            motion: None,
-            deform: None,
-            bump: None,
-            crack: None,
-            air: None,
+            ..Object::solid("body", shape, MediumId(1))
         };
         let glass = Medium::plain("glass", Eta::try_from(1.5).unwrap());
-        Scene {
-            name: "test".to_owned(),
-            title: "A body".to_owned(),
-            source: Source::default(),
-            camera: Camera {
-                eye: DVec3::new(0.0, 0.0, 4.0),
-                target: DVec3::ZERO,
-                up: DVec3::Y,
-                projection: Projection::Perspective { vertical_fov_deg: 40.0 },
-                resolution_px: [64, 48],
-            },
-            environment: Environment::Uniform(DVec3::ONE),
-            media: vec![Medium::vacuum(), glass],
-            objects: vec![object],
-            lights: vec![],
-            sequence: Sequence { frames: 1, seconds_per_frame: 1.0 },
-            judgement: Judgement::default(),
-            warnings: vec![],
-        }
+        let camera = Camera {
+            eye: DVec3::new(0.0, 0.0, 4.0),
+            target: DVec3::ZERO,
+            up: DVec3::Y,
+            projection: Projection::Perspective { vertical_fov_deg: 40.0 },
+            resolution_px: [64, 48],
+        };
+        Scene::in_white_light("test", camera, vec![Medium::vacuum(), glass], vec![object])
     }
 
     #[test]

@@ -12,13 +12,12 @@ mod mesh;
 #[cfg(test)]
 mod tests;
 
-use crate::scene::{Judgement, Normals, Sequence, Source};
+use crate::scene::{Normals, Sequence, Source};
 use crate::{Camera, Environment, Medium, Object, Projection, Scene, Shape};
 use extras::Extras;
 use glam::{DAffine3, DMat4, DVec3};
 use sha2::{Digest, Sha256};
 use std::path::Path;
-use std::sync::Arc;
 
 /// Why a glTF file is not a scene.
 #[derive(Debug, thiserror::Error)]
@@ -143,18 +142,13 @@ fn hex(bytes: &[u8]) -> String {
 }
 
 fn empty(name: &str, path: &Path, environment: Environment) -> Scene {
+    let camera = Camera::fitted([DVec3::NEG_ONE, DVec3::ONE], [512, 512]);
     Scene {
-        name: name.to_owned(),
         title: format!("{name} (glTF)"),
         source: Source { path: Some(path.to_owned()), ..Source::default() },
-        camera: Camera::fitted([DVec3::NEG_ONE, DVec3::ONE], [512, 512]),
         environment,
-        media: vec![Medium::vacuum()],
-        objects: Vec::new(),
-        lights: Vec::new(),
         sequence: Sequence { frames: 1, seconds_per_frame: 1.0 / 60.0 },
-        judgement: Judgement::default(),
-        warnings: Vec::new(),
+        ..Scene::in_white_light(name, camera, vec![Medium::vacuum()], Vec::new())
     }
 }
 
@@ -212,16 +206,10 @@ impl Reader<'_> {
         let normals = if mesh.normals.is_some() { Normals::Smooth } else { Normals::Flat };
         let surface = self.surface_of(&primitive.material())?;
         self.scene.objects.push(Object {
-            name,
-            shape: Arc::new(Shape::Mesh(mesh)),
             surface,
             world_from_object: DAffine3::from_mat4(world),
             normals,
-            motion: None,
-            deform: None,
-            bump: None,
-            crack: None,
-            air: None,
+            ..Object::solid(&name, Shape::Mesh(mesh), crate::MediumId::SURROUNDINGS)
         });
         Ok(())
     }
