@@ -135,6 +135,11 @@ fn a_comparison_without_a_compiler_ends_with_status_2_and_names_the_packages() {
     assert_eq!(ran.status, Some(2), "{}", ran.message);
     assert!(ran.message.contains("apt-get install libembree-dev g++"), "{}", ran.message);
     assert_eq!(ran.answer, "");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_snell-under-test"));
+    command.args(["bench", "--reference", "--against", "mitsuba"]);
+    let ran = run(command.current_dir(root()).env("PYTHON", "no-such-python"));
+    assert_eq!((ran.status, ran.answer.as_str()), (Some(2), ""), "{}", ran.message);
+    assert!(ran.message.contains("pip install mitsuba numpy"), "{}", ran.message);
     let ran = snell("bench --reference --repetitions 3");
     assert_eq!((ran.status, ran.answer.as_str()), (Some(2), ""));
 }

@@ -9,14 +9,14 @@
 #[cfg(test)]
 mod tests;
 
-use crate::composition::Order;
-use crate::frame::{self, Viewed};
+use crate::order::Order;
 use crate::pieces::{camera_piece, no_vector_piece, piece};
 use crate::pipelines::{DrawnSurfaces, Maker};
 use crate::recorder::{Allocator, Recorder};
 use crate::resources::Resources;
 use crate::surfaces::{Sides, Surfaces, target};
 use crate::uniforms::{self, MAX_BODIES, MAX_LIGHTS};
+use crate::viewed::{self, Viewed};
 use crate::{Error, Filter, Gpu, sky};
 use scenes::Environment;
 use wgpu::{BufferUsages, TextureUsages};
@@ -118,7 +118,7 @@ impl DrawnBackdrop {
         let mut faces = Vec::new();
         for (index, name) in FACES.into_iter().enumerate() {
             let mut own = surroundings_shared(&resources);
-            let numbers = frame::numbers(view, 0);
+            let numbers = viewed::numbers(view, 0);
             let (size_px, margin) = (backdrop.size_px, backdrop.margin);
             let numbers = numbers.of_cube_face(index, view.geometry.middle_lc, size_px, margin);
             let bytes = uniforms::bytes_of(&numbers);

@@ -4,9 +4,8 @@
 //! reflections in natural objects", SIGRAD 2006.
 
 use crate::Error;
-use crate::composition::{Order, asked};
-use crate::frame::{self, Viewed};
 use crate::method::Settings;
+use crate::order::{Order, asked};
 use crate::peel;
 use crate::pieces::piece;
 use crate::pipelines::{DrawnSurfaces, Maker};
@@ -14,6 +13,7 @@ use crate::recorder::Recorder;
 use crate::resources::Resources;
 use crate::surfaces::{Sides, Surfaces, Target, target};
 use crate::uniforms;
+use crate::viewed::{self, Viewed};
 use crate::wgsl::Piece;
 use wgpu::{BufferUsages, TextureFormat};
 
@@ -237,7 +237,7 @@ impl DrawnInterior {
             shown.share(&mut resources, "frame");
         } else {
             let own = Viewed { resolution_px: interior.resolution_px, ..*view };
-            let bytes = uniforms::bytes_of(&frame::numbers(&own, 0));
+            let bytes = uniforms::bytes_of(&viewed::numbers(&own, 0));
             let buffer = allocator.filled("frame of the inside", &bytes, BufferUsages::UNIFORM)?;
             resources.buffer("frame", buffer);
         }

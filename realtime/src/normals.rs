@@ -2,8 +2,7 @@
 //! `normal-cube`. Drawn once unless something moves or deforms.
 
 use crate::Error;
-use crate::composition::Order;
-use crate::frame::{self, Viewed};
+use crate::order::Order;
 use crate::parts::Parts;
 use crate::pieces::piece;
 use crate::pipelines::{DrawnSurfaces, Maker};
@@ -11,6 +10,7 @@ use crate::recorder::Recorder;
 use crate::resources::Resources;
 use crate::surfaces::{Sides, Surfaces, target};
 use crate::uniforms;
+use crate::viewed::{self, Viewed};
 use wgpu::{BufferUsages, TextureUsages};
 
 /// Texels along a face.
@@ -51,7 +51,7 @@ impl DrawnNormals {
             for name in ["bodies", "bumps"] {
                 shown.share(&mut own, name);
             }
-            let numbers = frame::numbers(view, 0);
+            let numbers = viewed::numbers(view, 0);
             let numbers = numbers.of_cube_face(index, view.geometry.middle_lc, SIZE_PX, 0);
             let bytes = uniforms::bytes_of(&numbers);
             let uniform = BufferUsages::UNIFORM;

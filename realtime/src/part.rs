@@ -1,8 +1,9 @@
 //! The frames that a request comes to.
 
 use crate::Gpu;
-use crate::composition::Filter;
-use crate::request::{Request, buffers};
+use crate::outputs::buffers;
+use crate::request::Filter;
+use crate::request::Request;
 use scenes::{LayerName, View};
 
 /// Label of the frame that is timed.

@@ -11,11 +11,11 @@ pub(crate) use composed::Peel;
 pub(crate) use layer::{Part as LayerPart, asked_for};
 pub(crate) use way::Counted;
 
-use crate::frame::{self, Viewed};
 use crate::method::Settings;
 use crate::pipelines::{DrawnSurfaces, Maker, OverPixels};
 use crate::recorder::Recorder;
 use crate::resources::Resources;
+use crate::viewed::{self, Viewed};
 use crate::{Error, Gpu, readback, uniforms};
 use composed::{CLEAR_OWN, FRAME_OF_LAYERS, Step};
 use way::Way;
@@ -50,7 +50,7 @@ impl Peeled {
         let most = count(&maker, peel, view, &mut resources)?;
         let counted = Counted::new(most, peel.max_layers);
         let own = make_room(&maker, peel, view, counted.capacity, &mut resources)?;
-        frame::set_layer_capacity(maker.gpu, view, counted.capacity, &resources);
+        viewed::set_layer_capacity(maker.gpu, view, counted.capacity, &resources);
         let collect = maker.surfaces(&peel.collect, &mut resources)?;
         let step = |step: &Option<Step>| {
             let made = step.as_ref().map(|step| {
@@ -100,7 +100,7 @@ fn own<'a>(
         shown.share(&mut resources, "frame");
         return Ok((bodies.clone(), resources));
     }
-    let bytes = uniforms::bytes_of(&frame::numbers(view, 0));
+    let bytes = uniforms::bytes_of(&viewed::numbers(view, 0));
     let usage = BufferUsages::UNIFORM | BufferUsages::STORAGE;
     let buffer = bodies.allocator.filled(FRAME_OF_LAYERS, &bytes, usage)?;
     shown.buffer("peel_frame", buffer.clone());

@@ -2,16 +2,18 @@
 //! composition, before anything exists on a GPU.
 
 use crate::backdrop::{Backdrop, FACES};
-use crate::composition::{Composition, Order};
+use crate::composition::Composition;
 use crate::geometry::Geometry;
 use crate::interior::Interior;
 use crate::method::{Method, Settings};
 use crate::normals;
+use crate::order::Order;
+use crate::outputs::{camera, outputs};
 use crate::part::{Part, parts};
 use crate::parts::{Corner, Parts};
 use crate::peel::{Counted, Peel};
 use crate::pieces::OUTPUTS;
-use crate::request::{Request, camera, outputs};
+use crate::request::Request;
 use crate::surfaces::Surfaces;
 use crate::tally::THICKNESS;
 use crate::uniforms::{self, Bodies};

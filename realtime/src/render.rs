@@ -1,14 +1,17 @@
 //! A method's image of a scene.
 
-use crate::composition::{Composition, Order};
-use crate::frame::{Frame, Viewed};
+use crate::composition::Composition;
+use crate::frame::Frame;
 use crate::geometry::Geometry;
 use crate::method::{Method, Settings};
+use crate::order::Order;
+use crate::outputs::{BUFFERS, buffers, camera, outputs};
 use crate::part::{Part, TIMED, parts};
 use crate::peel::{self, LayerPart};
 use crate::recorder::{Allocator, Executed, Recorder};
-use crate::request::{BUFFERS, Request, Timing, buffers, camera, outputs};
+use crate::request::{Request, Timing};
 use crate::tally::Done;
+use crate::viewed::Viewed;
 use crate::{Error, Gpu, plan, readback};
 use scenes::rendering::Provenance;
 use scenes::{Camera, LayerName, Layers, Plan, Rendering, Scene};

@@ -34,10 +34,14 @@ pub enum Error {
     TooManyMedia(usize),
     /// An unknown or not yet computed layer.
     #[error(
-        "the reference has no layer \"{0}\" for this scene and request\nit has {list}",
-        list = crate::layers::LAYERS.map(|(name, _)| name).join(", ")
+        "the reference has no layer \"{layer}\" for this scene and request\nit has {available}"
     )]
-    Layer(String),
+    Layer {
+        /// What was asked for.
+        layer: String,
+        /// All there are.
+        available: String,
+    },
     /// Variance of something that is not an estimate.
     #[error(
         "the layer \"variance\" needs random paths in at least 2 batches, at level R1 or R2\nthe tree \

@@ -80,7 +80,10 @@ impl Columns {
         let mut names: Vec<(LayerName, usize)> = Vec::new();
         let (mut media, mut bounces) = (Vec::new(), 0);
         for name in &request.view.layers {
-            let unknown = || Error::Layer(name.to_string());
+            let unknown = || Error::Layer {
+                layer: name.to_string(),
+                available: LAYERS.map(|(name, _)| name).join(", "),
+            };
             let channels = match name {
                 LayerName::Radiance
                 | LayerName::Exit

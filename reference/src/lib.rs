@@ -8,12 +8,14 @@
 mod analytic;
 mod bend;
 mod branches;
+mod caustic_map;
 mod caustics;
 mod chain;
 mod convex;
 mod crossing;
 mod edge;
 mod error;
+mod face;
 mod flight;
 mod frame;
 pub mod interface;
@@ -42,7 +44,8 @@ mod watertight;
 mod wide;
 mod world;
 
-pub use caustics::{Balance, CausticMap, CausticsRequest, caustics};
+pub use caustic_map::{Balance, CausticMap};
+pub use caustics::{CausticsRequest, caustics};
 pub use error::Error;
 pub use frame::{Watch, render, render_watched};
 pub use layers::LAYERS;

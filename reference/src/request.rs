@@ -1,6 +1,6 @@
 //! What the reference is asked for.
 
-use crate::caustics::CausticMap;
+use crate::caustic_map::CausticMap;
 use crate::error::Error;
 use scenes::View;
 use std::sync::Arc;

@@ -1,6 +1,6 @@
 //! What every way of tracing shares: the scene, its light, and where rays start.
 
-use crate::caustics::CausticMap;
+use crate::caustic_map::CausticMap;
 use crate::flight::{Flight, Scratch, Start};
 use crate::media::{Counts, Media};
 use crate::optics::Optics;

@@ -26,6 +26,25 @@ pub enum BenchError {
         /// The first lines it wrote.
         said: String,
     },
+    /// There is no such Python.
+    #[error(
+        "Mitsuba's side is a script, and \"{python}\" cannot be started: {source}\nwrite \
+         PYTHON=path/to/python3, of an environment in which `pip install mitsuba numpy` was done"
+    )]
+    Python {
+        /// What was to be run.
+        python: String,
+        /// The system's answer.
+        source: std::io::Error,
+    },
+    /// Mitsuba's side failed.
+    #[error("Mitsuba's side broke off in \"{python}\"\n{said}")]
+    Mitsuba {
+        /// What was run.
+        python: String,
+        /// The last lines it wrote.
+        said: String,
+    },
     /// The other program broke off.
     #[error("{program} {why}")]
     Other {

@@ -6,6 +6,7 @@ mod embree;
 mod error;
 mod footprint;
 mod input;
+mod mitsuba;
 mod speed;
 mod statistics;
 
@@ -14,6 +15,9 @@ pub use embree::{Program, Robust, compiler};
 pub use error::BenchError;
 pub use footprint::{Footprint, footprint};
 pub use input::{BEYOND, ETA, IMAGE_PX, Input, inputs};
+pub use mitsuba::{
+    BesideMitsuba, MITSUBA_PX, MITSUBA_REPETITIONS, ToError, beside_mitsuba, python,
+};
 pub use speed::Speed;
 pub use statistics::{FEWEST, Interval, median_interval, ratio_interval};
 

@@ -3,7 +3,7 @@
 use super::Status;
 use super::output::{Output, table};
 use crate::Error;
-use crate::bench::{self, Interval, Measured, Program};
+use crate::bench::{self, BesideMitsuba, Interval, Measured, Program};
 use crate::progress::Progress;
 use clap::ValueEnum;
 use serde::Serialize;
@@ -33,6 +33,9 @@ pub(super) struct Args {
 enum Other {
     /// Embree 3, compiled here with `CXX` or c++: the same rays and triangles
     Embree,
+    /// Mitsuba 3, by the Python that `PYTHON` names or python3: processor time to the same error
+    /// (minutes; --repetitions does not count)
+    Mitsuba,
 }
 
 /// On what and how everything is measured.
@@ -51,6 +54,9 @@ struct Machine<'a> {
 pub(super) fn run(args: &Args, output: Output) -> Result<Status, Error> {
     if let Some(triangles) = args.triangles {
         return footprint(triangles, output);
+    }
+    if args.against == Some(Other::Mitsuba) {
+        return mitsuba(output);
     }
     // What is missing is found out before anything is measured.
     let embree = (args.against == Some(Other::Embree))
@@ -107,6 +113,51 @@ fn footprint(triangles: u32, output: Output) -> Result<Status, Error> {
         ))?;
     }
     Ok(Status::Done)
+}
+
+fn mitsuba(output: Output) -> Result<Status, Error> {
+    let snell = std::env::current_exe()
+        .map_err(Error::file(std::path::Path::new("snell"), "cannot be found"))?;
+    let progress = Progress::new("beside Mitsuba");
+    let found = bench::beside_mitsuba(&bench::python(), &snell)?;
+    drop(progress);
+    if output.json {
+        found.iter().try_for_each(|one| output.object("snell.bench.mitsuba/1", one))?;
+        return Ok(Status::Done);
+    }
+    let (px, repetitions) = (bench::MITSUBA_PX, bench::MITSUBA_REPETITIONS);
+    output.line(&format!(
+        "{}; {px} x {px} pixels, {repetitions} repetitions: medians, and the ratio's extremes",
+        bench::processor()
+    ))?;
+    found.iter().try_for_each(|one| output.line(&beside(one))).map(|()| Status::Done)
+}
+
+/// Processor seconds to one error, of both.
+fn beside(one: &BesideMitsuba) -> String {
+    let head = ["  samples", "RMSE", "Mitsuba, CPU s", "snell, CPU s", "by", "snell of Mitsuba"];
+    let mut rows = vec![head.map(str::to_owned).to_vec()];
+    rows.extend(one.rows.iter().map(|row| {
+        vec![
+            format!("  {}", row.samples),
+            format!("{:.2e}", row.rmse),
+            format!("{:.2}", row.mitsuba_cpu_s),
+            format!("{:.2}", row.snell_cpu_s),
+            row.snell_by.clone(),
+            format!("{:.3} ({:.3} to {:.3})", row.ratio, row.ratio_low, row.ratio_high),
+        ]
+    }));
+    format!(
+        "\n{}: Mitsuba {} {}; {:.1} % of the pixels left out; means {:+.1} standard errors apart \
+         ({:+.1e})\n{}",
+        one.scene,
+        one.mitsuba,
+        one.variant,
+        100.0 * one.left_out,
+        one.mean_difference_in_se,
+        one.relative_mean_difference,
+        table(&rows)
+    )
 }
 
 fn text(machine: &Machine<'_>, measured: &[Measured]) -> String {

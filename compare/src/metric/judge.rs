@@ -1,5 +1,6 @@
 //! Which metrics a pair of images has, and what becomes of the others.
 
+use super::judgement_error::JudgementError;
 use super::pair::{Answer, Pair, Sides, values_not_finite};
 use super::{Candidate, Mask, Measurement, Metric, Reference, Selection};
 use crate::results::{NotDone, Status};
@@ -14,28 +15,6 @@ pub struct Judgement {
     /// FLIP of each pixel, if FLIP was measured: it is the one metric that is
     /// slow enough to keep for the report.
     pub flip_map: Option<Vec<f64>>,
-}
-
-/// Why a pair cannot be judged at all.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum JudgementError {
-    /// The sizes differ.
-    #[error(
-        "the reference has {}x{} pixels, the candidate {}x{}: render both at one resolution",
-        reference[0], reference[1], candidate[0], candidate[1]
-    )]
-    Size {
-        /// Width and height of the reference.
-        reference: [u32; 2],
-        /// Width and height of the candidate.
-        candidate: [u32; 2],
-    },
-    /// There is no layer that both have.
-    #[error("reference and candidate share neither a radiance (R,G,B) nor an exit layer")]
-    NothingShared,
-    /// The reference is not a picture.
-    #[error("the reference is not usable: {0}")]
-    Reference(String),
 }
 
 /// Measures a candidate against a reference.

@@ -9,6 +9,7 @@ pub mod error;
 pub mod exit_angle;
 pub mod flip;
 mod judge;
+mod judgement_error;
 mod pair;
 pub mod pu21;
 pub mod relative;
@@ -18,7 +19,8 @@ pub mod sum;
 
 pub use describe::{Better, Description, Metric};
 pub use flip::Exposures;
-pub use judge::{Judgement, JudgementError, judge};
+pub use judge::{Judgement, judge};
+pub use judgement_error::JudgementError;
 
 use crate::results::{ResultRow, RowKind, Status};
 use scenes::Layers;

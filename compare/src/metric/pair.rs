@@ -1,7 +1,7 @@
 //! Two images side by side, and the value of each metric on them.
 
 use super::exit_angle::{ExitAngles, exit_angle_map_deg, summarise, unmatched_share};
-use super::judge::JudgementError;
+use super::judgement_error::JudgementError;
 use super::sum::mean;
 use super::{Candidate, Encoding, Exposures, Mask, Metric, Reference, Selection};
 use super::{display, error, flip, pu21, relative, ssim, stack};

@@ -2,11 +2,13 @@
 //! and a ball whose outline has a closed form.
 #![allow(clippy::unwrap_used, reason = "a test that cannot render must fail")]
 
-use crate::composition::{Composition, Order};
-use crate::frame::{Frame, Viewed};
+use crate::composition::Composition;
+use crate::frame::Frame;
 use crate::geometry::Geometry;
 use crate::method::{Method, Settings};
+use crate::order::Order;
 use crate::recorder::{Allocator, Recorder};
+use crate::viewed::Viewed;
 use crate::{Filter, Gpu, Request, readback};
 use glam::{DAffine3, DVec3};
 use scenes::environment::{LatLong, Map};

@@ -2,7 +2,7 @@
 //! that holds all of the bodies, whatever the image shows.
 
 use crate::Error;
-use crate::composition::Order;
+use crate::order::Order;
 use crate::pieces::piece;
 use crate::wgsl::Piece;
 use scenes::{Camera, Projection};

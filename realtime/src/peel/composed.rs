@@ -2,7 +2,7 @@
 
 use super::camera;
 use super::way::{Counted, MAX_LAYERS, Way};
-use crate::composition::Order;
+use crate::order::Order;
 use crate::pieces::piece;
 use crate::surfaces::{STORED, Sides, Surfaces, Target};
 use crate::wgsl::{Piece, Shader};

@@ -1,7 +1,7 @@
 //! Photons at their start.
 
-use super::face::Face;
 use crate::error::Error;
+use crate::face::Face;
 use crate::flight::{Flight, Scratch, Start};
 use crate::media::Media;
 use crate::sampling::Points;

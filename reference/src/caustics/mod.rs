@@ -14,11 +14,11 @@
 //! meshes with smooth normals a map is as exact as those normals are.
 
 mod emission;
-mod face;
-mod map;
 mod photon;
 
+use crate::caustic_map::{Balance, CausticMap};
 use crate::error::Error;
+use crate::face::Face;
 use crate::flight::Scratch;
 use crate::media::{Counts, Media};
 use crate::request::{Level, Request};
@@ -26,12 +26,10 @@ use crate::sampling::Points;
 use crate::tracer::Tracer;
 use crate::world::World;
 use emission::Emission;
-use face::Face;
 use glam::DVec3;
 use photon::{Deposit, Tally, photon};
 use rayon::prelude::*;
 use scenes::{Camera, Projection, Scene, View};
-use std::fmt;
 use std::ops::Range;
 
 /// A map of the light on an object's face.
@@ -50,46 +48,6 @@ pub struct CausticsRequest {
     pub seed: u64,
     /// Frame of the scene's sequence.
     pub frame: u32,
-}
-
-/// Power by where it went, summed over photons, linear R, G, B.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Balance {
-    /// Left the lights towards the sphere around receiver and glass, in watts if
-    /// the lights are in watts.
-    pub emitted: DVec3,
-    /// Arrived on the receiver's face.
-    pub deposited: DVec3,
-    /// Was absorbed in media or on opaque surfaces.
-    pub absorbed: DVec3,
-    /// Left the scene.
-    pub escaped: DVec3,
-    /// Was dropped after 20,000 events.
-    pub dropped: DVec3,
-}
-
-/// Irradiance on a receiver's face.
-#[derive(Clone, PartialEq)]
-pub struct CausticMap {
-    /// Index of the receiver.
-    pub receiver: usize,
-    /// Bins along columns (+x of a box) and rows (+z).
-    pub size_bins: [u32; 2],
-    /// Irradiance per bin, W/m² in the scene's units, rows one after the other.
-    pub irradiance: Vec<DVec3>,
-    /// Variance of that irradiance.
-    pub variance: Vec<DVec3>,
-    /// Where the power went.
-    pub balance: Balance,
-    face: Face,
-}
-
-impl fmt::Debug for CausticMap {
-    /// Short, and different for maps that differ.
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let sum: DVec3 = self.irradiance.iter().sum();
-        write!(f, "CausticMap({} {:?} {sum:?})", self.receiver, self.size_bins)
-    }
 }
 
 /// Photons of one piece of parallel work.

@@ -1,7 +1,7 @@
 //! One photon's way, and where its power goes.
 
-use super::Balance;
-use super::face::Face;
+use crate::caustic_map::Balance;
+use crate::face::Face;
 use crate::flight::{End, Flight, Scratch};
 use crate::media::Media;
 use crate::optics::{reflected, transmitted};

@@ -6,7 +6,7 @@ use scenes::{Mesh, Scene, Shape, Surface};
 
 /// A parallelogram: corner, two sides, and the side that is lit.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Face {
+pub(crate) struct Face {
     corner_ws: DVec3,
     /// Columns run along the first, rows along the second.
     sides_ws: [DVec3; 2],
@@ -16,7 +16,7 @@ pub(super) struct Face {
 
 impl Face {
     /// The face of an object that can receive light.
-    pub(super) fn of(scene: &Scene, receiver: usize, frame: u32) -> Result<Self, Error> {
+    pub(crate) fn of(scene: &Scene, receiver: usize, frame: u32) -> Result<Self, Error> {
         let Some(object) = scene.objects.get(receiver) else {
             let value = receiver.to_string();
             return Err(Error::Range { name: "receiver", value, range: "an object of the scene" });
@@ -51,18 +51,18 @@ impl Face {
         Ok(Self { corner_ws: place.transform_point3(corner), sides_ws, normal_ws })
     }
 
-    pub(super) fn corners_ws(&self) -> [DVec3; 4] {
+    pub(crate) fn corners_ws(&self) -> [DVec3; 4] {
         let [u, v] = self.sides_ws;
         [DVec3::ZERO, u, v, u + v].map(|offset| self.corner_ws + offset)
     }
 
-    pub(super) fn area_m2(&self) -> f64 {
+    pub(crate) fn area_m2(&self) -> f64 {
         self.sides_ws[0].cross(self.sides_ws[1]).length()
     }
 
     /// Shares of the two sides at a point of the receiver, 0 to 1; `None` if a
     /// surface with this outward normal is another one of its sides.
-    pub(super) fn place(&self, point_ws: DVec3, outward_ws: DVec3) -> Option<[f64; 2]> {
+    pub(crate) fn place(&self, point_ws: DVec3, outward_ws: DVec3) -> Option<[f64; 2]> {
         if outward_ws.dot(self.normal_ws) < 0.999 {
             return None;
         }

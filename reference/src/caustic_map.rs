@@ -1,10 +1,50 @@
-//! Reading a map: from a file's numbers, and at points of the receiver.
+//! A map of the light on an object's face, and what it says at points of it.
 
-use super::face::Face;
-use super::{Balance, CausticMap};
 use crate::error::Error;
+use crate::face::Face;
 use glam::DVec3;
 use scenes::Scene;
+use std::fmt;
+
+/// Power by where it went, summed over photons, linear R, G, B.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Balance {
+    /// Left the lights towards the sphere around receiver and glass, in watts if
+    /// the lights are in watts.
+    pub emitted: DVec3,
+    /// Arrived on the receiver's face.
+    pub deposited: DVec3,
+    /// Was absorbed in media or on opaque surfaces.
+    pub absorbed: DVec3,
+    /// Left the scene.
+    pub escaped: DVec3,
+    /// Was dropped after 20,000 events.
+    pub dropped: DVec3,
+}
+
+/// Irradiance on a receiver's face.
+#[derive(Clone, PartialEq)]
+pub struct CausticMap {
+    /// Index of the receiver.
+    pub receiver: usize,
+    /// Bins along columns (+x of a box) and rows (+z).
+    pub size_bins: [u32; 2],
+    /// Irradiance per bin, W/m² in the scene's units, rows one after the other.
+    pub irradiance: Vec<DVec3>,
+    /// Variance of that irradiance.
+    pub variance: Vec<DVec3>,
+    /// Where the power went.
+    pub balance: Balance,
+    pub(crate) face: Face,
+}
+
+impl fmt::Debug for CausticMap {
+    /// Short, and different for maps that differ.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let sum: DVec3 = self.irradiance.iter().sum();
+        write!(f, "CausticMap({} {:?} {sum:?})", self.receiver, self.size_bins)
+    }
+}
 
 impl CausticMap {
     /// A map that was written before, for the same scene, receiver and frame.
