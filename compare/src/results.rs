@@ -7,7 +7,6 @@ mod store;
 
 pub use store::{ResultsError, read_rows, read_study, write_rows, write_study};
 
-use crate::metric::Mask;
 use scenes::Plan;
 use scenes::rendering::Pass;
 use serde::{Deserialize, Serialize};
@@ -39,6 +38,18 @@ pub enum RowKind {
     Time,
     /// A deterministic count: passes, bytes, rays, flagged pixels.
     Count,
+}
+
+/// Which pixels are judged.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Mask {
+    /// The whole image.
+    #[default]
+    All,
+    /// Pixels that an object covers at least partly, by the reference's
+    /// coverage layer: the same set for every method.
+    Object,
 }
 
 /// Whether a value can be used.

@@ -22,9 +22,10 @@ pub use flip::Exposures;
 pub use judge::{Judgement, judge};
 pub use judgement_error::JudgementError;
 
+pub use crate::results::Mask;
 use crate::results::{ResultRow, RowKind, Status};
 use scenes::Layers;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 /// The image that is taken as true.
 #[derive(Clone, Copy, Debug)]
@@ -43,18 +44,6 @@ pub enum Encoding {
     Linear,
     /// sRGB code values, 0..1: what a PNG holds.
     Display,
-}
-
-/// Which pixels are judged.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Mask {
-    /// The whole image.
-    #[default]
-    All,
-    /// Pixels that an object covers at least partly, by the reference's
-    /// coverage layer: the same set for every method.
-    Object,
 }
 
 /// What is asked of [`judge`].
