@@ -7,6 +7,7 @@
 use crate::branches::Branch;
 use crate::error::Error;
 use crate::flight::{Counters, Scratch};
+use crate::job::{Job, Watch};
 use crate::layers::{Columns, Pixel};
 use crate::light::Light;
 use crate::media::{Counts, Inside, Media};
@@ -17,19 +18,10 @@ use crate::world::World;
 use glam::DVec2;
 use rayon::prelude::*;
 use scenes::rendering::{Pass, Provenance, Time, TimeSource};
-use scenes::{Camera, LayerName, Layers, Rendering, Scene};
+use scenes::{Camera, Layers, Rendering, Scene};
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Instant;
-
-/// How a long rendering is observed and stopped.
-#[derive(Clone, Copy, Default)]
-pub struct Watch<'a> {
-    /// Called with the share that is done, 0 to 1, from any thread.
-    pub progress: Option<&'a (dyn Fn(f64) + Sync)>,
-    /// Set to true to stop; the rendering then ends in [`Error::Cancelled`].
-    pub cancel: Option<&'a AtomicBool>,
-}
 
 /// Renders a scene exactly.
 ///
@@ -75,15 +67,6 @@ pub fn render_watched(
         plan: variant.plan(scene, &world, request, &columns),
         provenance: provenance(request),
     })
-}
-
-/// Everything a row needs.
-pub(crate) struct Job<'a> {
-    pub(crate) tracer: &'a Tracer<'a>,
-    pub(crate) camera: Camera,
-    pub(crate) request: &'a Request,
-    pub(crate) columns: &'a Columns,
-    pub(crate) watch: Watch<'a>,
 }
 
 impl Variant {
@@ -201,19 +184,4 @@ fn provenance(request: &Request) -> Provenance {
         seed,
         version: env!("CARGO_PKG_VERSION").to_owned(),
     }
-}
-
-/// True for layers that come from the chain through the pixel's centre.
-pub(crate) fn is_of_chain(name: &LayerName) -> bool {
-    matches!(
-        name,
-        LayerName::Exit
-            | LayerName::ExitPosition
-            | LayerName::First
-            | LayerName::Hit2
-            | LayerName::Events
-            | LayerName::TotalReflections
-            | LayerName::Flags
-            | LayerName::Path(_)
-    )
 }

@@ -2,7 +2,6 @@
 
 use crate::chain::Chain;
 use crate::error::Error;
-use crate::frame::is_of_chain;
 use crate::request::{Estimator, Level, Request};
 use glam::DVec3;
 use scenes::{LayerName, Layers, Scene};
@@ -187,4 +186,19 @@ impl Columns {
         }
         layers
     }
+}
+
+/// True for layers that come from the chain through the pixel's centre.
+fn is_of_chain(name: &LayerName) -> bool {
+    matches!(
+        name,
+        LayerName::Exit
+            | LayerName::ExitPosition
+            | LayerName::First
+            | LayerName::Hit2
+            | LayerName::Events
+            | LayerName::TotalReflections
+            | LayerName::Flags
+            | LayerName::Path(_)
+    )
 }

@@ -19,6 +19,7 @@ mod face;
 mod flight;
 mod frame;
 pub mod interface;
+mod job;
 mod layers;
 mod light;
 mod line;
@@ -47,7 +48,8 @@ mod world;
 pub use caustic_map::{Balance, CausticMap};
 pub use caustics::{CausticsRequest, caustics};
 pub use error::Error;
-pub use frame::{Watch, render, render_watched};
+pub use frame::{render, render_watched};
+pub use job::Watch;
 pub use layers::LAYERS;
 pub use plan::plan;
 pub use request::{

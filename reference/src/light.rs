@@ -3,7 +3,7 @@
 
 use crate::branches::{Branch, Climb, Sum};
 use crate::flight::{Flight, Scratch};
-use crate::frame::Job;
+use crate::job::Job;
 use crate::layers::Pixel;
 use crate::media::Media;
 use crate::policy::{Cut, Policy, Roulette};

@@ -10,6 +10,7 @@ mod numbers;
 mod page;
 pub mod picture;
 pub mod plot;
+mod runs;
 mod scene_images;
 mod scene_plots;
 mod spreadsheet;

@@ -1,11 +1,11 @@
 //! The image files of one scene, read and measured pixel by pixel.
 
 use super::ReportError;
-use super::assemble::methods_of;
 use super::colour_map;
 use super::files::ScenePictures;
 use super::page::MethodPictures;
 use super::picture::Picture;
+use super::runs::methods_of;
 use crate::image_pair::read_image;
 use crate::metric::{Exposures, exit_angle, flip};
 use crate::results::{FLIP_LAYER, REFERENCE, Run, SceneEntry, Study};

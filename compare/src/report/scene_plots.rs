@@ -1,9 +1,9 @@
 //! The plots of one scene and what is said under them.
 
-use super::assemble::{display_name, find};
 use super::numbers::{Numbers, usable};
 use super::page::PlotView;
 use super::plot::{Plot, Point};
+use super::runs::{display_name, find};
 use crate::metric::Metric;
 use crate::results::{Run, SceneEntry, Study};
 

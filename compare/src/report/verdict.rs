@@ -1,8 +1,8 @@
 //! The verdict in sentences: who wins, by how much, at what cost, against what.
 
-use super::assemble::{display_name, methods_of};
 use super::number::{digits, duration};
 use super::numbers::{Numbers, is_better, usable};
+use super::runs::{display_name, methods_of};
 use crate::metric::Metric;
 use crate::results::{Run, Study};
 use std::collections::BTreeMap;

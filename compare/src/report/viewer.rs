@@ -1,7 +1,7 @@
 //! HDR data for the viewer in the page, within a budget.
 
-use super::assemble::{COLUMNS, methods_of};
 use super::page::{ImageData, SceneData, SceneView};
+use super::runs::{COLUMNS, methods_of};
 use super::scene_images::SceneImages;
 use super::{block, colour_map};
 use crate::results::Study;

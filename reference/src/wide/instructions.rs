@@ -1,6 +1,6 @@
 //! Which instructions run the inner loops: decided by the CPU the program is on.
 
-use super::kernel::{Kernel, Portable};
+use super::kernel::{Job, Portable};
 #[cfg(target_arch = "x86_64")]
 use super::simd::{Avx2, Avx512};
 
@@ -44,13 +44,6 @@ pub(crate) enum Detected {
     Avx2(Avx2),
     #[cfg(target_arch = "x86_64")]
     Avx512(Avx512),
-}
-
-/// What runs on a kernel, whichever it is.
-pub(crate) trait Job {
-    type Output;
-
-    fn run<K: Kernel>(self, kernel: K) -> Self::Output;
 }
 
 impl Detected {

@@ -9,6 +9,13 @@ use super::node::{Block, LANES, Node, WIDTH};
 use super::ray::BoxRay;
 use crate::line::Line;
 
+/// What runs on a kernel, whichever it is.
+pub(crate) trait Job {
+    type Output;
+
+    fn run<K: Kernel>(self, kernel: K) -> Self::Output;
+}
+
 /// One way to run the inner loops.
 pub(crate) trait Kernel: Copy {
     /// A line prepared for boxes.

@@ -1,8 +1,7 @@
 //! The inner loops in AVX2 and AVX-512, chosen when the program runs.
 #![allow(unsafe_code, reason = "vector instructions; every use is behind a check of the CPU")]
 
-use super::instructions::Job;
-use super::kernel::Kernel;
+use super::kernel::{Job, Kernel};
 use super::node::{Block, Node, WIDTH};
 use super::ray::BoxRay;
 use crate::line::Line;

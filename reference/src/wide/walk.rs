@@ -5,8 +5,8 @@
 //! answers with the same bits.
 
 use super::Tree;
-use super::instructions::{Detected, Job};
-use super::kernel::Kernel;
+use super::instructions::Detected;
+use super::kernel::{Job, Kernel};
 use super::node::{Block, Child, LANES, Node, WIDTH};
 use super::ray::BoxRay;
 use super::stack::{Entry, Stack};

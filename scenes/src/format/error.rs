@@ -52,7 +52,7 @@ pub enum Error {
     Mesh(#[from] MeshError),
     /// A glTF file cannot be shown.
     #[error(transparent)]
-    Gltf(#[from] crate::import::ImportError),
+    Gltf(#[from] crate::import::error::ImportError),
     /// An image file given on its own is wrong.
     #[error(transparent)]
     Image(#[from] crate::image::Error),

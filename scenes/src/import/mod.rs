@@ -6,6 +6,7 @@
 //! file holds and no renderer can show (rough glass, textures, skins) is an
 //! error; what the image does not depend on is a warning.
 
+pub(crate) mod error;
 mod extras;
 mod material;
 mod mesh;
@@ -19,31 +20,7 @@ use glam::{DAffine3, DMat4, DVec3};
 use sha2::{Digest, Sha256};
 use std::path::Path;
 
-/// Why a glTF file is not a scene.
-#[derive(Debug, thiserror::Error)]
-pub enum ImportError {
-    /// The file or one of its buffers is missing or damaged.
-    #[error("{file}: {source}")]
-    File {
-        /// As given.
-        file: String,
-        /// What the reader said.
-        source: Box<gltf::Error>,
-    },
-    /// The environment that the file names cannot be read.
-    #[error(transparent)]
-    Environment(#[from] crate::image::Error),
-    /// A value that no renderer can use.
-    #[error("{file}, {place}: {what}")]
-    Value {
-        /// As given.
-        file: String,
-        /// Mesh or material.
-        place: String,
-        /// What is wrong and what to write instead.
-        what: String,
-    },
-}
+pub use error::ImportError;
 
 struct Reader<'a> {
     file: String,
