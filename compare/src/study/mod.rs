@@ -43,6 +43,9 @@ pub struct Spec {
     pub cut: f64,
     /// Seconds for which each method is timed.
     pub timing_s: f64,
+    /// Time each frame a second time with everything kept, to say what leaving out
+    /// saves.
+    pub time_all_kept: bool,
     /// Where results and report go.
     pub out: PathBuf,
     /// Command line that repeats the study.

@@ -110,7 +110,8 @@ impl<'a> SceneWork<'a> {
                     let common = common(&run, &made);
                     let judged = judge.judged(&made, &common)?;
                     rows.extend(judged.rows);
-                    if let Some(full) = job.with_all_kept()? {
+                    let kept = if spec.time_all_kept { job.with_all_kept()? } else { None };
+                    if let Some(full) = kept {
                         rows.extend(times_with_all_kept(&full.passes(gpu)?, &common));
                     }
                     run.metrics_left_out = judged.left_out;
