@@ -115,8 +115,8 @@ pub(crate) struct Recorder<'g> {
 pub(crate) struct Executed {
     pub(crate) passes: Vec<String>,
     /// Milliseconds per pass, where the adapter has timestamps. Lavapipe writes
-    /// those of a compute pass that reads no image of the passes before it only at
-    /// the end of the frame, so there they may be far too short.
+    /// those of some compute passes only at the end of the frame, so there they may
+    /// be far too short.
     pub(crate) timestamp_ms: Option<Vec<f64>>,
     /// Milliseconds from submission to completion.
     pub(crate) wall_ms: f64,
