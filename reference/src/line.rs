@@ -15,11 +15,9 @@ pub(crate) const ROUNDING: f64 = 1.0 / (1u64 << 44) as f64;
 pub(crate) struct Line {
     pub(crate) origin: DVec3,
     pub(crate) direction: DVec3,
-    /// 1 / direction, with zeros replaced so that no product is NaN.
-    pub(crate) inverse: DVec3,
     pub(crate) axes: [usize; 3],
     pub(crate) shear: DVec2,
-    inverse_z: f64,
+    pub(crate) inverse_z: f64,
 }
 
 impl Line {
@@ -41,7 +39,6 @@ impl Line {
         Self {
             origin,
             direction,
-            inverse: DVec3::from_array(direction.to_array().map(finite_inverse)),
             axes: [x, y, z],
             shear: DVec2::new(direction[x] * inverse_z, direction[y] * inverse_z),
             inverse_z,
@@ -70,9 +67,4 @@ impl Line {
     pub(crate) fn rounding_at(&self, t: f64) -> f64 {
         ROUNDING * (self.origin.abs().max_element() + t.abs())
     }
-}
-
-/// 1 / x, finite also for zero: a product with it decides a box test without NaN.
-fn finite_inverse(x: f64) -> f64 {
-    if x.abs() < 1e-300 { 1e300_f64.copysign(x) } else { 1.0 / x }
 }

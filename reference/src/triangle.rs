@@ -43,9 +43,8 @@ impl Pierce {
         if sum == 0.0 {
             return None;
         }
-        let weights = [u / sum, v / sum, w / sum];
-        let t = weights[0] * a_t + weights[1] * b_t + weights[2] * c_t;
-        Some(Self { t, weights, entering: !negative })
+        let t = (u * a_t + v * b_t + w * c_t) / sum;
+        Some(Self { t, weights: [u / sum, v / sum, w / sum], entering: !negative })
     }
 }
 

@@ -1,12 +1,13 @@
 //! The two inner loops, and how they are done without vector instructions.
 //!
-//! Kernels only propose: [`Pierce::new`](crate::triangle::Pierce::new)
-//! decides. For triangles all of them do the same operations in the same order,
-//! so they propose the same; for boxes they may round differently, because what
-//! is answered does not depend on boxes.
+//! For triangles all kernels do the operations of
+//! [`Pierce::new`](crate::triangle::Pierce::new) in its order, so they answer
+//! with its bits, and leave to it what passes through an edge. For boxes they
+//! may round differently, because what is answered does not depend on boxes.
 
 use super::node::{Block, LANES, Node, WIDTH};
 use super::ray::BoxRay;
+use super::stack::{Keys, LANE, NONE};
 use crate::line::Line;
 
 /// What runs on a kernel, whichever it is.
@@ -22,18 +23,35 @@ pub(crate) trait Kernel: Copy {
     type Boxes: Copy;
     /// A line prepared for triangles.
     type Lanes: Copy;
+    /// A block's triangles as the line sees them.
+    type Seen: Copy;
+    /// [`Keys`] where the kernel works on them.
+    type Order: Copy;
 
     fn boxes(self, ray: &BoxRay, low: f32) -> Self::Boxes;
 
     fn lanes(self, line: &Line) -> Self::Lanes;
 
-    /// One bit for each child that the line meets between `low` and `limit`,
-    /// and where it does.
-    fn meet(self, ray: &Self::Boxes, node: &Node, limit: f32) -> (u32, [f32; WIDTH]);
+    /// The children that the line meets between `low` and `limit`: one bit for
+    /// each, and their keys.
+    fn meet(self, ray: &Self::Boxes, node: &Node, limit: f32) -> (u32, Self::Order);
+
+    /// The least key, and all keys without it.
+    fn nearest(self, keys: Self::Order) -> (i32, Self::Order);
+
+    fn load(self, keys: &Keys) -> Self::Order;
+
+    fn store(self, keys: Self::Order, to: &mut Keys);
 
     /// One bit for each triangle that the line may pierce: none that it does is
     /// left out.
-    fn candidates(self, line: &Self::Lanes, block: &Block) -> u32;
+    fn candidates(self, line: &Self::Lanes, block: &Block) -> (u32, Self::Seen);
+
+    /// One bit for each triangle that the line pierces inside its edges, and t of
+    /// its passage through each of those, the bits of [`Pierce::new`].
+    ///
+    /// [`Pierce::new`]: crate::triangle::Pierce::new
+    fn clear(self, line: &Self::Lanes, seen: &Self::Seen) -> (u32, [f64; LANES]);
 }
 
 /// Plain Rust.
@@ -43,6 +61,8 @@ pub(crate) struct Portable;
 impl Kernel for Portable {
     type Boxes = (BoxRay, f32);
     type Lanes = Line;
+    type Seen = Seen;
+    type Order = Keys;
 
     #[inline(always)]
     fn boxes(self, ray: &BoxRay, low: f32) -> Self::Boxes {
@@ -55,7 +75,7 @@ impl Kernel for Portable {
     }
 
     #[inline(always)]
-    fn meet(self, (ray, low): &Self::Boxes, node: &Node, limit: f32) -> (u32, [f32; WIDTH]) {
+    fn meet(self, (ray, low): &Self::Boxes, node: &Node, limit: f32) -> (u32, Keys) {
         let (mut near, mut far) = ([*low; WIDTH], [limit; WIDTH]);
         for axis in 0..3 {
             let first = ray.first[axis] & 1;
@@ -67,35 +87,87 @@ impl Kernel for Portable {
                 far[i] = if t < far[i] { t } else { far[i] };
             }
         }
-        let mut mask = 0;
+        let (mut mask, mut keys) = (0, Keys::NONE);
         for i in 0..WIDTH {
-            mask |= u32::from(near[i] <= far[i]) << i;
+            let met = near[i] <= far[i];
+            mask |= u32::from(met) << i;
+            let key = near[i].to_bits() as i32 & !LANE | i as i32;
+            keys.0[i] = if met { key } else { NONE };
         }
-        (mask, near)
+        (mask, keys)
     }
 
     #[inline(always)]
-    fn candidates(self, line: &Line, block: &Block) -> u32 {
+    fn nearest(self, mut keys: Keys) -> (i32, Keys) {
+        let least = keys.0.into_iter().fold(NONE, i32::min);
+        for key in &mut keys.0 {
+            *key = if *key == least { NONE } else { *key };
+        }
+        (least, keys)
+    }
+
+    #[inline(always)]
+    fn load(self, keys: &Keys) -> Keys {
+        *keys
+    }
+
+    #[inline(always)]
+    fn store(self, keys: Keys, to: &mut Keys) {
+        *to = keys;
+    }
+
+    #[inline(always)]
+    fn candidates(self, line: &Line, block: &Block) -> (u32, Seen) {
         let [x, y, z] = line.axes;
+        let mut depths = [[0.0; LANES]; 3];
         let mut across = [[[0.0; LANES]; 2]; 3];
-        for (corner, seen) in block.corners.iter().zip(&mut across) {
+        for ((corner, seen), depths) in block.corners.iter().zip(&mut across).zip(&mut depths) {
             for i in 0..LANES {
                 let depth = corner[z][i] - line.origin[z];
                 seen[0][i] = (corner[x][i] - line.origin[x]) - line.shear.x * depth;
                 seen[1][i] = (corner[y][i] - line.origin[y]) - line.shear.y * depth;
+                depths[i] = depth;
             }
         }
         let [a, b, c] = &across;
-        let mut mask = 0;
-        for i in 0..LANES {
-            let cross = |p: &[[f64; LANES]; 2], q: &[[f64; LANES]; 2]| {
-                p[0][i] * q[1][i] - p[1][i] * q[0][i]
-            };
-            let [u, v, w] = [cross(c, b), cross(a, c), cross(b, a)];
-            let all = (u >= 0.0) & (v >= 0.0) & (w >= 0.0);
-            let none = (u <= 0.0) & (v <= 0.0) & (w <= 0.0);
-            mask |= u32::from(all | none) << i;
-        }
-        mask
+        let areas = [cross(c, b), cross(a, c), cross(b, a)];
+        let mask = lanes(|i| {
+            let all = areas.iter().all(|area| area[i] >= 0.0);
+            all | areas.iter().all(|area| area[i] <= 0.0)
+        });
+        (mask, Seen { depths, areas })
     }
+
+    #[inline(always)]
+    fn clear(self, line: &Line, seen: &Seen) -> (u32, [f64; LANES]) {
+        let ([u, v, w], [a, b, c]) = (&seen.areas, &seen.depths);
+        let clear = lanes(|i| {
+            let all = seen.areas.iter().all(|area| area[i] > 0.0);
+            all | seen.areas.iter().all(|area| area[i] < 0.0)
+        });
+        let t = std::array::from_fn(|i| {
+            let [a_t, b_t, c_t] = [a[i], b[i], c[i]].map(|depth| depth * line.inverse_z);
+            (u[i] * a_t + v[i] * b_t + w[i] * c_t) / (u[i] + v[i] + w[i])
+        });
+        (clear, t)
+    }
+}
+
+/// Corners' distances along the third axis, and twice the areas between pairs of
+/// them as the line sees them.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Seen {
+    depths: [[f64; LANES]; 3],
+    areas: [[f64; LANES]; 3],
+}
+
+#[inline(always)]
+fn cross(p: &[[f64; LANES]; 2], q: &[[f64; LANES]; 2]) -> [f64; LANES] {
+    std::array::from_fn(|i| p[0][i] * q[1][i] - p[1][i] * q[0][i])
+}
+
+/// A bit for each lane.
+#[inline(always)]
+fn lanes(is: impl Fn(usize) -> bool) -> u32 {
+    (0..LANES).fold(0, |mask, i| mask | u32::from(is(i)) << i)
 }

@@ -1,6 +1,8 @@
 //! What the tree is made of: nodes of eight boxes, and blocks of triangles.
 
-use crate::triangle::Triangle;
+use super::stack::LANE;
+use crate::line::Line;
+use crate::triangle::{Pierce, Triangle};
 use glam::DVec3;
 
 /// Children of a node.
@@ -23,6 +25,12 @@ impl Node {
         planes: [[[f32::INFINITY; WIDTH], [f32::NEG_INFINITY; WIDTH]]; 3],
         children: [Child(0); WIDTH],
     };
+
+    /// The child that a key is of.
+    #[inline(always)]
+    pub(crate) fn child(&self, key: i32) -> Child {
+        self.children[(key & LANE) as usize]
+    }
 }
 
 /// A node's or, with the highest bit set, a block's index.
@@ -77,6 +85,12 @@ impl Block {
         }
         self.ids[lane] = triangle.id;
         self.bodies[lane] = triangle.body;
+    }
+
+    /// A line's passage through a triangle.
+    #[inline(always)]
+    pub(crate) fn pierce(&self, line: &Line, lane: usize) -> Option<Pierce> {
+        Pierce::new(line, |corner, axis| self.corners[corner][axis][lane])
     }
 
     #[inline(always)]

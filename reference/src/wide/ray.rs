@@ -7,7 +7,7 @@ use crate::line::Line;
 /// through that plane, and plane · `inverse` + `leave` not before it.
 ///
 /// With |plane| ≤ 1, M = 1 + max |origin| and t in unit coordinates, f32
-/// arithmetic (two roundings and those of the constants) is off by at most
+/// arithmetic (two roundings, and those of the constants) is off by at most
 /// 2.5 · 2⁻²³ M |inverse|; the constants are moved by 2⁻²¹ M |inverse|, so what
 /// remains covers the f64 rounding of the triangles many times over.
 ///
@@ -24,7 +24,7 @@ pub(crate) struct BoxRay {
     per_metre: f64,
 }
 
-const MOST_INVERSE: f64 = (1u64 << 26) as f64;
+const MOST_INVERSE: f32 = (1u32 << 26) as f32;
 const SLACK: f64 = 1.0 / (1u64 << 21) as f64;
 
 impl BoxRay {
@@ -40,9 +40,11 @@ impl BoxRay {
             per_metre: unit.per_metre,
         };
         for axis in 0..3 {
-            let inverse = line.inverse[axis].clamp(-MOST_INVERSE, MOST_INVERSE);
-            let (at, shift) = (-origin[axis] * inverse, slack * inverse.abs());
-            ray.inverse[axis] = inverse as f32;
+            let inverse = (line.direction[axis] as f32).recip();
+            let inverse = inverse.clamp(-MOST_INVERSE, MOST_INVERSE);
+            let (at, shift) =
+                (-origin[axis] * f64::from(inverse), slack * f64::from(inverse.abs()));
+            ray.inverse[axis] = inverse;
             ray.enter[axis] = (at - shift) as f32;
             ray.leave[axis] = (at + shift) as f32;
             ray.first[axis] = usize::from(inverse < 0.0);

@@ -1,67 +1,72 @@
 //! Children still to visit.
 
-use super::node::Child;
+use super::node::WIDTH;
 
-/// Grows beyond its fixed part only in hostile trees. Kept between rays,
-/// because clearing it would cost as much as a short walk.
-#[derive(Clone, Debug)]
+/// What no key is as large as.
+pub(crate) const NONE: i32 = i32::MAX;
+/// The bits of a key that say which child.
+pub(crate) const LANE: i32 = WIDTH as i32 - 1;
+
+/// For each child of a node that is still to visit, the bits of the f32 at which
+/// the line meets it, its number in place of the last three: near ones are less.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(32))]
+pub(crate) struct Keys(pub(crate) [i32; WIDTH]);
+
+impl Keys {
+    pub(crate) const NONE: Self = Self([NONE; WIDTH]);
+}
+
+/// No less than the key of any child met before `limit`.
+#[inline(always)]
+pub(crate) fn latest(limit: f32) -> i32 {
+    if limit > 0.0 { limit.to_bits() as i32 | LANE } else { LANE }
+}
+
+/// A node, and which of its children are still to visit.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Frame {
+    pub(crate) keys: Keys,
+    pub(crate) node: usize,
+}
+
+/// Kept between rays, so that it seldom grows.
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Stack {
-    fixed: [Entry; 192],
+    frames: Vec<Frame>,
     used: usize,
-    spill: Vec<Entry>,
-}
-
-/// Where the line meets a child, in the high half as the bits of an f32, and
-/// the child. Near ones compare less.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct Entry(i64);
-
-impl Entry {
-    #[inline(always)]
-    pub(crate) fn new(near: f32, child: Child) -> Self {
-        Self(((near.to_bits() as i32 as i64) << 32) | i64::from(child.0))
-    }
-
-    #[inline(always)]
-    pub(crate) fn near(self) -> f32 {
-        f32::from_bits((self.0 >> 32) as u32)
-    }
-
-    #[inline(always)]
-    pub(crate) fn child(self) -> Child {
-        Child(self.0 as u32)
-    }
-}
-
-impl Default for Stack {
-    fn default() -> Self {
-        Self { fixed: [Entry::default(); 192], used: 0, spill: Vec::new() }
-    }
 }
 
 impl Stack {
     #[inline(always)]
     pub(crate) fn clear(&mut self) {
         self.used = 0;
-        self.spill.clear();
+    }
+
+    /// A new frame on top.
+    #[inline(always)]
+    pub(crate) fn push(&mut self, node: usize) -> &mut Keys {
+        if self.used == self.frames.len() {
+            self.grow();
+        }
+        let frame = &mut self.frames[self.used];
+        frame.node = node;
+        self.used += 1;
+        &mut frame.keys
     }
 
     #[inline(always)]
-    pub(crate) fn push(&mut self, entry: Entry) {
-        if let Some(slot) = self.fixed.get_mut(self.used) {
-            *slot = entry;
-            self.used += 1;
-        } else {
-            self.spill.push(entry);
-        }
+    pub(crate) fn top(&mut self) -> Option<&mut Frame> {
+        self.frames[..self.used].last_mut()
     }
 
     #[inline(always)]
-    pub(crate) fn pop(&mut self) -> Option<Entry> {
-        if let Some(entry) = self.spill.pop() {
-            return Some(entry);
-        }
-        self.used = self.used.checked_sub(1)?;
-        Some(self.fixed[self.used])
+    pub(crate) fn pop(&mut self) {
+        self.used = self.used.saturating_sub(1);
+    }
+
+    #[cold]
+    fn grow(&mut self) {
+        self.frames.resize(2 * self.used + 16, Frame { keys: Keys::NONE, node: 0 });
     }
 }

@@ -7,9 +7,9 @@
 use super::Tree;
 use super::instructions::Detected;
 use super::kernel::{Job, Kernel};
-use super::node::{Block, Child, LANES, Node, WIDTH};
+use super::node::{Block, Child, LANES};
 use super::ray::BoxRay;
-use super::stack::{Entry, Stack};
+use super::stack::{Stack, latest};
 use crate::line::Line;
 use crate::triangle::Pierce;
 
@@ -59,6 +59,14 @@ impl Tree {
         instructions.run(Nearest { tree: self, line, query, stack })
     }
 
+    /// The crossing with the triangle in a slot.
+    #[inline(always)]
+    fn hit(&self, line: &Line, slot: u32) -> Option<TriangleHit> {
+        let (block, lane) = (&self.blocks[slot as usize / LANES], slot as usize % LANES);
+        let (id, body) = (block.ids[lane], block.bodies[lane]);
+        block.pierce(line, lane).map(|pierce| TriangleHit { pierce, id, body, slot })
+    }
+
     /// Every crossing of the full line, in no particular order.
     pub(crate) fn crossings(&self, line: &Line, each: impl FnMut(TriangleHit)) {
         self.instructions.run(All { tree: self, line, each });
@@ -69,7 +77,36 @@ impl Tree {
 trait Visitor {
     /// Looks at the candidates of a block; says where the walk may end, if
     /// that has changed.
-    fn visit(&mut self, index: usize, block: &Block, candidates: u32) -> Option<f32>;
+    fn visit(&mut self, met: Met<'_, impl Kernel>) -> Option<f32>;
+}
+
+/// A block and which of its triangles the line may pierce.
+struct Met<'a, K: Kernel> {
+    kernel: K,
+    line: &'a Line,
+    lanes: &'a K::Lanes,
+    block: &'a Block,
+    index: usize,
+    candidates: u32,
+    seen: K::Seen,
+}
+
+impl<K: Kernel> Met<'_, K> {
+    /// Tells t and the lane of each crossing.
+    #[inline(always)]
+    fn each(&self, mut each: impl FnMut(f64, usize)) {
+        let (clear, t) = self.kernel.clear(self.lanes, &self.seen);
+        let mut candidates = self.candidates;
+        while candidates != 0 {
+            let lane = candidates.trailing_zeros() as usize % LANES;
+            candidates &= candidates - 1;
+            if clear >> lane & 1 != 0 {
+                each(t[lane], lane);
+            } else if let Some(pierce) = self.block.pierce(self.line, lane) {
+                each(pierce.t, lane);
+            }
+        }
+    }
 }
 
 struct Nearest<'a> {
@@ -87,42 +124,42 @@ impl Job for Nearest<'_> {
         let Self { tree, line, query, stack } = self;
         let ray = BoxRay::new(line, &tree.unit);
         let low = ray.not_after(query.after.0);
-        let found = Closest { first: None, second_t: f64::INFINITY };
-        let first_key = (f64::INFINITY, u32::MAX);
-        let mut visitor = VisitNearest { line, ray: &ray, query, found, first_key };
-        walk(kernel, tree, line, &ray, low, stack, &mut visitor);
-        visitor.found
+        let first = (f64::INFINITY, u32::MAX);
+        let visitor = VisitNearest { ray: &ray, query, first, slot: None, second_t: first.0 };
+        let mut walk = Walk::new(kernel, tree, line, &ray, low, stack, visitor);
+        while walk.step() {}
+        let VisitNearest { slot, second_t, .. } = walk.visitor;
+        Closest { first: slot.and_then(|slot| tree.hit(line, slot)), second_t }
     }
 }
 
 struct VisitNearest<'a> {
-    line: &'a Line,
     ray: &'a BoxRay,
     query: Query,
-    found: Closest,
-    first_key: (f64, u32),
+    first: (f64, u32),
+    slot: Option<u32>,
+    second_t: f64,
 }
 
 impl Visitor for VisitNearest<'_> {
     #[inline(always)]
-    fn visit(&mut self, index: usize, block: &Block, candidates: u32) -> Option<f32> {
-        let mut limit = None;
-        each_pierced(self.line, index, block, candidates, |hit| {
-            let t = hit.pierce.t;
-            let key = (t, hit.id);
-            if hit.id == self.query.skip || key <= self.query.after {
+    fn visit(&mut self, met: Met<'_, impl Kernel>) -> Option<f32> {
+        let before = self.slot;
+        met.each(|t, lane| {
+            let key = (t, met.block.ids[lane]);
+            if key.1 == self.query.skip || key <= self.query.after {
                 return;
             }
-            if key < self.first_key {
-                self.found.second_t = self.first_key.0;
-                self.first_key = key;
-                self.found.first = Some(hit);
-                limit = Some(self.ray.not_before(t + self.line.rounding_at(t)));
-            } else if t < self.found.second_t {
-                self.found.second_t = t;
+            if key < self.first {
+                self.second_t = self.first.0;
+                self.first = key;
+                self.slot = Some((met.index * LANES + lane) as u32);
+            } else if t < self.second_t {
+                self.second_t = t;
             }
         });
-        limit
+        let t = self.first.0;
+        (self.slot != before).then(|| self.ray.not_before(t + met.line.rounding_at(t)))
     }
 }
 
@@ -139,137 +176,103 @@ impl<F: FnMut(TriangleHit)> Job for All<'_, F> {
     fn run<K: Kernel>(self, kernel: K) {
         let Self { tree, line, each } = self;
         let ray = BoxRay::new(line, &tree.unit);
-        let mut visitor = VisitAll { line, each };
         let mut stack = Stack::default();
-        walk(kernel, tree, line, &ray, f32::NEG_INFINITY, &mut stack, &mut visitor);
+        let (low, visitor) = (f32::NEG_INFINITY, VisitAll { tree, each });
+        let mut walk = Walk::new(kernel, tree, line, &ray, low, &mut stack, visitor);
+        while walk.step() {}
     }
 }
 
 struct VisitAll<'a, F> {
-    line: &'a Line,
+    tree: &'a Tree,
     each: F,
 }
 
 impl<F: FnMut(TriangleHit)> Visitor for VisitAll<'_, F> {
     #[inline(always)]
-    fn visit(&mut self, index: usize, block: &Block, candidates: u32) -> Option<f32> {
-        each_pierced(self.line, index, block, candidates, &mut self.each);
+    fn visit(&mut self, met: Met<'_, impl Kernel>) -> Option<f32> {
+        met.each(|_, lane| {
+            let slot = (met.index * LANES + lane) as u32;
+            self.tree.hit(met.line, slot).into_iter().for_each(&mut self.each);
+        });
         None
     }
 }
 
-/// The crossings with those of a block's triangles that a kernel proposed.
-#[inline(always)]
-fn each_pierced(
-    line: &Line,
-    index: usize,
-    block: &Block,
-    mut candidates: u32,
-    mut each: impl FnMut(TriangleHit),
-) {
-    while candidates != 0 {
-        let lane = candidates.trailing_zeros() as usize % LANES;
-        candidates &= candidates - 1;
-        if let Some(pierce) = Pierce::new(line, |corner, axis| block.corners[corner][axis][lane]) {
-            let slot = (index * LANES + lane) as u32;
-            each(TriangleHit { pierce, id: block.ids[lane], body: block.bodies[lane], slot });
-        }
-    }
-}
-
-/// Visits the blocks that the line may meet between `low` and the limit that
-/// visits return, about nearest first.
-#[inline(always)]
-fn walk<K: Kernel>(
+/// Visits the blocks that a line may meet between `low` and the limit that
+/// visits return, about nearest first, a step at a time.
+struct Walk<'a, K: Kernel, V> {
     kernel: K,
-    tree: &Tree,
-    line: &Line,
-    ray: &BoxRay,
-    low: f32,
-    stack: &mut Stack,
-    visitor: &mut impl Visitor,
-) {
-    let boxes = kernel.boxes(ray, low);
-    let lanes = kernel.lanes(line);
-    let mut limit = f32::INFINITY;
-    stack.clear();
-    let Some(root) = tree.root.filter(|_| ray.is_usable()) else { return };
-    let mut child = root;
-    loop {
-        while !child.is_block() {
-            let node = &tree.nodes[child.index()];
-            let (mask, near) = kernel.meet(&boxes, node, limit);
-            if mask == 0 {
-                break;
-            }
-            child = nearest(node, mask, &near, stack);
-        }
-        if child.is_block() {
-            let block = &tree.blocks[child.index()];
-            let mask = kernel.candidates(&lanes, block);
-            if mask != 0
-                && let Some(closer) = visitor.visit(child.index(), block, mask)
-            {
-                limit = closer;
-            }
-        }
-        child = loop {
-            let Some(entry) = stack.pop() else { return };
-            if entry.near() <= limit {
-                break entry.child();
-            }
-        };
-    }
+    tree: &'a Tree,
+    line: &'a Line,
+    boxes: K::Boxes,
+    lanes: K::Lanes,
+    limit: f32,
+    last: i32,
+    child: Option<Child>,
+    stack: &'a mut Stack,
+    visitor: V,
 }
 
-/// The nearest child of a node; the others go onto the stack, nearest on top.
-#[inline(always)]
-fn nearest(node: &Node, mut mask: u32, near: &[f32; WIDTH], stack: &mut Stack) -> Child {
-    let mut next = || {
-        let i = mask.trailing_zeros() as usize % WIDTH;
-        mask &= mask - 1;
-        (i, mask == 0)
-    };
-    let entry = |i: usize| Entry::new(near[i], node.children[i]);
-    let (first, last) = next();
-    if last {
-        return node.children[first];
+impl<'a, K: Kernel, V: Visitor> Walk<'a, K, V> {
+    #[inline(always)]
+    fn new(
+        kernel: K,
+        tree: &'a Tree,
+        line: &'a Line,
+        ray: &BoxRay,
+        low: f32,
+        stack: &'a mut Stack,
+        visitor: V,
+    ) -> Self {
+        stack.clear();
+        let (boxes, lanes) = (kernel.boxes(ray, low), kernel.lanes(line));
+        let (limit, last) = (f32::INFINITY, latest(f32::INFINITY));
+        let child = tree.root.filter(|_| ray.is_usable());
+        Self { kernel, tree, line, boxes, lanes, limit, last, child, stack, visitor }
     }
-    let a = entry(first);
-    let (i, last) = next();
-    let b = entry(i);
-    let (a, b) = (a.min(b), a.max(b));
-    if last {
-        stack.push(b);
-        return a.child();
-    }
-    let (i, last) = next();
-    let c = entry(i);
-    let (b, c) = (b.min(c), b.max(c));
-    let (a, b) = (a.min(b), a.max(b));
-    if last {
-        stack.push(c);
-        stack.push(b);
-        return a.child();
-    }
-    let mut sorted = [a, b, c, c, c, c, c, c];
-    let mut count = 3;
-    loop {
-        let (i, last) = next();
-        let entry = entry(i);
-        let mut at = count;
-        while at > 0 && sorted[(at - 1) % WIDTH] > entry {
-            sorted[at % WIDTH] = sorted[(at - 1) % WIDTH];
-            at -= 1;
+
+    /// Visits a node or a block; false where there is none left.
+    #[inline(always)]
+    fn step(&mut self) -> bool {
+        let Some(child) = self.child else { return false };
+        if child.is_block() {
+            let (index, block) = (child.index(), &self.tree.blocks[child.index()]);
+            let (candidates, seen) = self.kernel.candidates(&self.lanes, block);
+            if candidates != 0 {
+                let Self { kernel, line, ref lanes, .. } = *self;
+                let met = Met { kernel, line, lanes, block, index, candidates, seen };
+                if let Some(limit) = self.visitor.visit(met) {
+                    (self.limit, self.last) = (limit, latest(limit));
+                }
+            }
+        } else {
+            let node = &self.tree.nodes[child.index()];
+            let (mask, keys) = self.kernel.meet(&self.boxes, node, self.limit);
+            if mask != 0 {
+                let (key, others) = self.kernel.nearest(keys);
+                if mask & (mask - 1) != 0 {
+                    self.kernel.store(others, self.stack.push(child.index()));
+                }
+                self.child = Some(node.child(key));
+                return true;
+            }
         }
-        sorted[at % WIDTH] = entry;
-        count += 1;
-        if last {
-            break;
+        self.child = self.waiting();
+        self.child.is_some()
+    }
+
+    /// The child to go on with that was met first.
+    #[inline(always)]
+    fn waiting(&mut self) -> Option<Child> {
+        loop {
+            let frame = self.stack.top()?;
+            let (key, others) = self.kernel.nearest(self.kernel.load(&frame.keys));
+            if key <= self.last {
+                self.kernel.store(others, &mut frame.keys);
+                return Some(self.tree.nodes[frame.node].child(key));
+            }
+            self.stack.pop();
         }
     }
-    for entry in sorted[1..count].iter().rev() {
-        stack.push(*entry);
-    }
-    sorted[0].child()
 }
