@@ -9,7 +9,7 @@ pub(crate) fn buffer_bytes(gpu: &Gpu, source: &wgpu::Buffer, bytes: u64) -> Resu
     let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     encoder.copy_buffer_to_buffer(source, 0, &staging, 0, Some(bytes));
     gpu.queue.submit([encoder.finish()]);
-    map(gpu, &staging)
+    read(gpu, &staging, <[u8]>::to_vec)
 }
 
 /// Texels of a float texture, `channels` f32 per texel, rows from the top, one
@@ -36,11 +36,15 @@ pub(crate) fn texture_values(
         wgpu::Extent3d { width, height, depth_or_array_layers: layers },
     );
     gpu.queue.submit([encoder.finish()]);
-    let bytes = map(gpu, &staging)?;
-    let rows = bytes.chunks_exact(padded as usize);
-    Ok(rows
-        .flat_map(|row| bytemuck::pod_collect_to_vec::<u8, f32>(&row[..row_bytes as usize]))
-        .collect())
+    read(gpu, &staging, |bytes| {
+        let row = channels as usize * width as usize;
+        let mut values = vec![0.0_f32; row * height as usize * layers as usize];
+        let rows = values.chunks_exact_mut(row);
+        for (row, bytes) in rows.zip(bytes.chunks_exact(padded as usize)) {
+            bytemuck::cast_slice_mut(row).copy_from_slice(&bytes[..row_bytes as usize]);
+        }
+        values
+    })
 }
 
 fn staging(gpu: &Gpu, bytes: u64) -> wgpu::Buffer {
@@ -52,7 +56,7 @@ fn staging(gpu: &Gpu, bytes: u64) -> wgpu::Buffer {
     })
 }
 
-fn map(gpu: &Gpu, staging: &wgpu::Buffer) -> Result<Vec<u8>, Error> {
+fn read<T>(gpu: &Gpu, staging: &wgpu::Buffer, of: impl FnOnce(&[u8]) -> T) -> Result<T, Error> {
     let (sender, receiver) = mpsc::channel();
     staging.map_async(wgpu::MapMode::Read, .., move |result| {
         // The receiver outlives the wait below.
@@ -66,5 +70,5 @@ fn map(gpu: &Gpu, staging: &wgpu::Buffer) -> Result<Vec<u8>, Error> {
         Err(error) => return Err(gpu.failed(&error)),
     }
     let view = staging.get_mapped_range(..).map_err(|error| gpu.failed(&error))?;
-    Ok(view.to_vec())
+    Ok(of(&view))
 }

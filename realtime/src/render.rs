@@ -13,6 +13,7 @@ use crate::request::{Request, Timing};
 use crate::tally::Done;
 use crate::viewed::Viewed;
 use crate::{Error, Gpu, plan, readback};
+use rayon::prelude::*;
 use scenes::rendering::Provenance;
 use scenes::{Camera, LayerName, Layers, Plan, Rendering, Scene};
 use std::borrow::Cow;
@@ -61,7 +62,7 @@ impl Job<'_> {
             done.layers(layers_held, ran.composition.peel.as_ref());
             done.bytes += ran.allocator.allocated().iter().map(|buffer| buffer.bytes).sum::<u64>();
             let timed = match (part.label, self.request.timing) {
-                (TIMED, Some(timing)) => self.time(&ran.frame, timing)?,
+                (TIMED, Some(timing)) => self.time(&ran, timing)?,
                 _ => Vec::new(),
             };
             let per_frame_ms = ran.thickness_ms.filter(|_| self.geometry.deforms);
@@ -113,7 +114,7 @@ impl Job<'_> {
         let mut executed = self.once(&frame, false, true)?;
         if part.is_timed() {
             // The frames after the first are what a game draws.
-            executed = self.once(&frame, false, false)?;
+            executed = self.once(&frame, true, false)?;
         }
         Ok(Ran { composition, allocator, frame, executed, thickness_ms })
     }
@@ -128,19 +129,20 @@ impl Job<'_> {
         let values = self.read(ran, "radiance")?;
         let [width, height] = self.request.view.resolution_px.map(|n| n as usize);
         let k = k as usize;
-        let stride = width * k;
         let mut radiance = vec![0.0; 3 * width * height];
         let mut coverage = vec![0.0; width * height];
-        for y in 0..height * k {
-            for x in 0..stride {
-                let from = 4 * (y * stride + x);
-                let pixel = y / k * width + x / k;
-                for channel in 0..3 {
-                    radiance[3 * pixel + channel] += f64::from(values[from + channel]);
+        let rows = radiance.par_chunks_mut(3 * width).zip(coverage.par_chunks_mut(width));
+        rows.zip(values.par_chunks(4 * width * k * k)).for_each(
+            |((radiance, coverage), values)| {
+                for (i, value) in values.chunks_exact(4).enumerate() {
+                    let pixel = i % (width * k) / k;
+                    for channel in 0..3 {
+                        radiance[3 * pixel + channel] += f64::from(value[channel]);
+                    }
+                    coverage[pixel] += f64::from(value[3]);
                 }
-                coverage[pixel] += f64::from(values[from + 3]);
-            }
-        }
+            },
+        );
         let positions = (k * k) as f64;
         radiance.iter_mut().chain(&mut coverage).for_each(|value| *value /= positions);
         self.push(layers, LayerName::Radiance, 3, radiance);
@@ -259,12 +261,17 @@ impl Job<'_> {
         }
     }
 
-    fn time(&self, frame: &Frame, timing: Timing) -> Result<Vec<Executed>, Error> {
-        for _ in 0..timing.warm_up {
+    /// Times of frames after the two that were drawn already.
+    fn time(&self, ran: &Ran<'_>, timing: Timing) -> Result<Vec<Executed>, Error> {
+        let frame = &ran.frame;
+        for _ in 2..timing.warm_up {
             self.once(frame, true, false)?;
         }
         let started = Instant::now();
         let mut frames = Vec::new();
+        if timing.warm_up < 2 {
+            frames.push(ran.executed.clone());
+        }
         while frames.len() < 3
             || (started.elapsed().as_secs_f64() < timing.seconds
                 && frames.len() < timing.max_frames as usize)

@@ -36,7 +36,7 @@ pub enum Filter {
 /// How long frames are timed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Timing {
-    /// Frames that are not counted.
+    /// Frames that are not counted, at least the first.
     pub warm_up: u32,
     /// At least this long, seconds.
     pub seconds: f64,

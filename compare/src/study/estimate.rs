@@ -8,9 +8,11 @@ use std::time::{Duration, Instant};
 
 /// Edge of the probing image, pixels.
 const PROBE_PX: u32 = 32;
-/// Seconds per image for everything but tracing and timing: compiling
-/// shaders, reading back, metrics, writing.
-const OVERHEAD_S: f64 = 0.9;
+/// Seconds per image for compiling shaders.
+const COMPILING_S: f64 = 0.5;
+/// Seconds per position in a pixel for drawing, reading back, metrics and writing,
+/// on two processors with a software driver; others are faster.
+const PER_POSITION_S: f64 = 0.75e-6;
 
 /// What a study is going to do.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -48,9 +50,10 @@ fn probe(job: &Exact<'_>, edge_px: u32) -> Result<f64, Error> {
     Ok(start.elapsed().as_secs_f64())
 }
 
-/// Seconds that the pairs should take if each is timed for `timing_s`.
-pub(super) fn pairs_seconds(pairs: usize, timing_s: f64) -> f64 {
-    pairs as f64 * (timing_s + OVERHEAD_S)
+/// Seconds that judging each of some methods should take, if it is timed for
+/// `timing_s` and drawn at `positions` in all pixels together.
+pub(super) fn judging_seconds(methods: usize, timing_s: f64, positions: f64) -> f64 {
+    methods as f64 * (timing_s + COMPILING_S + PER_POSITION_S * positions)
 }
 
 impl fmt::Display for Estimate {

@@ -118,7 +118,9 @@ fn estimate(
             scene.exact().partition(|job| store.has(&job.id()));
         match estimate::seconds(&missing) {
             Ok(more) => {
+                let positions = scene.truth().camera_rays();
                 seconds += more;
+                seconds += estimate::judging_seconds(spec.methods.len(), spec.timing_s, positions);
                 estimate.exact_images += missing.len();
                 estimate.stored_images += stored.len();
                 true
@@ -130,7 +132,6 @@ fn estimate(
         }
     });
     estimate.pairs = work.len() * spec.methods.len();
-    seconds += estimate::pairs_seconds(estimate.pairs, spec.timing_s);
     estimate.duration = Duration::from_secs_f64(seconds);
     estimate
 }

@@ -42,6 +42,11 @@ impl<'a> SceneWork<'a> {
         self.scene.name.clone()
     }
 
+    /// The image that methods are judged by.
+    pub(super) fn truth(&self) -> &Exact<'a> {
+        &self.truth
+    }
+
     /// All jobs, the truth first.
     pub(super) fn exact(&self) -> impl Iterator<Item = &Exact<'a>> {
         std::iter::once(&self.truth).chain(&self.curve)
