@@ -25,6 +25,7 @@ import argparse
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 
@@ -89,7 +90,8 @@ def exact(asked, scene, folder):
     """snell's image, and in which pixels it replaced a normal."""
     px, image, flags = asked.resolution, f"{folder}/exact.exr", f"{folder}/flags.exr"
     words = ["reference", scene, "--lat-long", "--resolution"]
-    snell(asked, *words, f"{px}x{px}", "--positions", str(asked.positions), "-o", image)
+    snell(asked, *words, f"{px}x{px}", "--positions", str(asked.positions), "--cut", "1e-6",
+          "-o", image)
     snell(asked, *words, f"{4 * px}x{4 * px}", "--positions", "1", "--layers", "flags", "-o", flags)
     marks = numpy.array(mi.Bitmap(flags), dtype=numpy.float64).reshape(4 * px, 4 * px).astype(int)
     return pixels(image), (marks & REPLACED != 0).reshape(px, 4, px, 4).any(axis=(1, 3))
@@ -143,6 +145,8 @@ def agreement(asked, ours, mean, error, kept):
 def judge(asked, scene):
     name = os.path.splitext(os.path.basename(scene))[0]
     folder = os.path.join(asked.out, name)
+    if os.path.exists(os.path.join(folder, "scene.xml")):
+        shutil.rmtree(folder)  # of an earlier run
     snell(asked, "export", scene, "--to", "mitsuba", "-o", folder)
     ours, replaced = exact(asked, scene, folder)
     mean, error = render(asked, load(asked, folder, False))

@@ -1,7 +1,7 @@
 //! Bodies that change their form: a travelling wave through a mesh.
 
 use crate::scene::{Object, Wave};
-use crate::{Mesh, Shape, mesh::CornerNormals};
+use crate::{Mesh, Scene, Shape, mesh::CornerNormals};
 use glam::DVec3;
 use std::collections::HashMap;
 use std::f64::consts::TAU;
@@ -73,6 +73,21 @@ impl Object {
             (Some(wave), Some(mesh)) => Arc::new(Shape::Mesh(wave.deform(mesh, time_s))),
             _ => Arc::clone(&self.shape),
         }
+    }
+}
+
+impl Scene {
+    /// The scene as it stands in a frame, with nothing left that moves or deforms.
+    #[must_use]
+    pub fn still(&self, frame: u32) -> Self {
+        let time_s = self.time_s(frame);
+        let mut still = self.clone();
+        for object in &mut still.objects {
+            object.shape = object.shape_at(time_s);
+            object.world_from_object = object.world_from_object_at(time_s);
+            (object.deform, object.motion) = (None, None);
+        }
+        still
     }
 }
 

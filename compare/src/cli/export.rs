@@ -16,6 +16,9 @@ pub(super) struct Args {
     /// Form to write
     #[arg(long, value_enum, value_name = "FORMAT")]
     to: Format,
+    /// Frame of the sequence: where what moves stands
+    #[arg(long, default_value_t = 0, value_name = "N")]
+    frame: u32,
     /// Folder to make; it must not exist yet
     #[arg(short, long, value_name = "DIR")]
     out: PathBuf,
@@ -37,7 +40,7 @@ pub(super) fn run(args: &Args, output: Output) -> Result<Status, Error> {
         Format::Pbrt => export::Format::Pbrt,
         Format::Gltf => export::Format::Gltf,
     };
-    let main = export::write(&scene(&args.scene)?, format, &args.out)?;
+    let main = export::write(&scene(&args.scene)?.still(args.frame), format, &args.out)?;
     if output.json {
         output.object("snell.export/1", &BTreeMap::from([("file", &main)]))?;
     } else {

@@ -60,7 +60,8 @@ pub enum ExportError {
     },
 }
 
-/// Writes a scene into a new folder and returns the path of its main file.
+/// Writes a scene as it stands in frame 0 into a new folder and returns the path
+/// of its main file. For another frame hand over [`Scene::still`].
 ///
 /// The folder appears whole or not at all.
 ///
@@ -71,6 +72,8 @@ pub fn write(scene: &Scene, format: Format, folder: &Path) -> Result<PathBuf, Ex
         return Err(ExportError::Exists(folder.to_owned()));
     }
     refuse_overlaps(scene, format)?;
+    refuse_details(scene, format)?;
+    let scene = &scene.still(0);
     let partial = folder.with_extension(format!("partial-{}", std::process::id()));
     let written = (|| {
         std::fs::create_dir_all(&partial).map_err(|source| write_error(&partial, source))?;
@@ -116,11 +119,32 @@ fn refuse_overlaps(scene: &Scene, format: Format) -> Result<(), ExportError> {
     Ok(())
 }
 
+/// None of the formats has cracks without thickness, and bump maps and bubbles
+/// made by a formula would have to be copied into it.
+fn refuse_details(scene: &Scene, format: Format) -> Result<(), ExportError> {
+    for object in &scene.objects {
+        let details = [
+            ("bump", object.bump.is_some()),
+            ("crack", object.crack.is_some()),
+            ("air", object.air.is_some()),
+        ];
+        if let Some((key, _)) = details.into_iter().find(|(_, is_there)| *is_there) {
+            return Err(ExportError::Inexpressible {
+                format,
+                what: format!("`{key}`"),
+                object: object.name.clone(),
+                advice: format!("leave `{key}` out of the scene file"),
+            });
+        }
+    }
+    Ok(())
+}
+
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a failing test may panic")]
     use super::*;
-    use crate::scene::Normals;
+    use crate::scene::{Crack, Motion, Normals, Wave};
     use crate::{Camera, Environment, Eta, Medium, MediumId, Mesh, Object, Projection, Shape};
     use glam::{DAffine3, DVec3};
 
@@ -181,6 +205,41 @@ mod tests {
         nested.objects[1].surface = Surface::Dielectric { medium: MediumId(1), priority: 1 };
         assert!(write(&nested, Format::Mitsuba, &folder.path().join("out")).is_err());
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+    }
+
+    /// What moves and deforms is written where it is in the frame.
+    #[test]
+    fn a_moving_body_is_written_as_it_stands() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut moving = scene(tetrahedron());
+        moving.sequence.seconds_per_frame = 0.1;
+        let object = &mut moving.objects[0];
+        object.motion = Some(Motion::Spin { axis: DVec3::Y, deg_per_s: 300.0 });
+        object.deform = Some(Wave {
+            amplitude_m: 0.1,
+            wavelength_m: 0.7,
+            travel: DVec3::X,
+            direction: DVec3::Y,
+            period_s: 1.0,
+        });
+        for (name, sent, time_s) in
+            [("first", moving.clone(), 0.0), ("third", moving.still(3), 0.3)]
+        {
+            let main = write(&sent, Format::Gltf, &folder.path().join(name)).unwrap();
+            let back =
+                crate::import::read(&main, Environment::Uniform(DVec3::ONE), [64, 48]).unwrap();
+            let (back, object) = (&back.objects[0], &moving.objects[0]);
+            let placed = object.world_from_object_at(time_s);
+            assert!(back.world_from_object.abs_diff_eq(placed, 1e-12), "{name}");
+            let (found, wanted) = (back.shape.mesh().unwrap(), object.shape_at(time_s));
+            for (a, b) in found.positions.iter().zip(&wanted.mesh().unwrap().positions) {
+                assert!((*a - *b).length() < 1e-7, "{name}: {a} for {b}");
+            }
+        }
+        let mut cracked = scene(tetrahedron());
+        cracked.objects[0].crack = Some(Crack { count: 1, grid: 8, seed: 0 });
+        let error = write(&cracked, Format::Gltf, &folder.path().join("x")).unwrap_err();
+        assert!(error.to_string().contains("leave `crack` out"), "{error}");
     }
 
     /// What glTF can say survives the way out and back.
