@@ -81,8 +81,7 @@ fn cracks_are_clipped_by_the_body() {
         assert!((depth.iou > 0.999) == convex, "{name}: {depth:?}");
         // The control: without a clip the mask is wrong.
         assert!(none.false_positive > 0.1, "{name}: {none:?}");
-        // Only triangles can be cut.
-        assert!(mesh.iou > 0.999 || name == "ball", "{name}: {mesh:?}");
+        assert!(mesh.iou > 0.999, "{name}: {mesh:?}");
     }
 }
 

@@ -159,8 +159,8 @@ impl Geometry {
             let Some(crack) = &object.crack else { continue };
             let world_from_object = object.world_from_object_at(time_s);
             for sheet in scenes::crack::cracks(crack, shape.bounds()) {
-                let cut = match shape.mesh() {
-                    Some(body) => scenes::crack::clipped(&sheet, body),
+                let cut = match scenes::generate::triangulated(&shape) {
+                    Some(body) => scenes::crack::clipped(&sheet, &body),
                     None => sheet,
                 };
                 let sheet = Shape::Mesh(cut);

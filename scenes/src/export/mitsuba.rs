@@ -5,7 +5,6 @@
 
 use super::surface::{indexed, numbers, unknown_shape, write_obj};
 use super::{ExportError, Format, write_text};
-use crate::scene::Normals;
 use crate::{Camera, Environment, Object, Projection, Scene, Shape, environment::LatLong};
 use glam::{DAffine3, DVec3};
 use std::fmt::Write as _;
@@ -107,11 +106,11 @@ fn shape(
     folder: &Path,
 ) -> Result<String, ExportError> {
     let (kind, detail) = match &*object.shape {
-        Shape::Mesh(_) => {
+        Shape::Mesh(_) | Shape::Box { .. } => {
             let mesh = indexed(object).ok_or_else(|| unknown_shape(Format::Mitsuba, object))?;
             let file = format!("object{index}.obj");
             write_obj(&mesh, &folder.join(&file))?;
-            let flat = object.normals == Normals::Flat;
+            let flat = mesh.normals.is_none();
             (
                 "obj",
                 format!(

@@ -2,7 +2,7 @@
 //! normals only where the scene shades with them.
 
 use super::{ExportError, Format, write_text};
-use crate::{Object, Shape, normals, scene::Normals};
+use crate::{Mesh, Object, Shape, generate, normals, scene::Normals};
 use glam::DVec3;
 use std::collections::HashMap;
 use std::fmt::Write as _;
@@ -15,8 +15,13 @@ pub(super) struct Indexed {
     pub(super) triangles: Vec<[u32; 3]>,
 }
 
-/// The object's triangles; `None` for shapes that have none.
+/// The object's triangles; `None` for shapes that have none. A box has twelve,
+/// which are flat.
 pub(super) fn indexed(object: &Object) -> Option<Indexed> {
+    if let Shape::Box { half_extent_m } = *object.shape {
+        let Mesh { positions, triangles, .. } = generate::cuboid(half_extent_m);
+        return Some(Indexed { positions, triangles, normals: None });
+    }
     let mesh = object.shape.mesh()?;
     let Some(corner) = mesh.normals.as_ref().filter(|_| object.normals == Normals::Smooth) else {
         let normals = (object.normals == Normals::Smooth).then(|| normals::smooth(mesh).values);

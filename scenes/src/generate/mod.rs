@@ -23,8 +23,9 @@ pub use revolve::{cup, half_ball, lens, revolve, torus, uv_sphere};
 pub use solid::{corner_cube, cube, cuboid, extruded, gear, ice_cube, landscape, prism};
 pub use teapot::{teapot, teapot_newell};
 
-use crate::{Mesh, mesh::CornerNormals, normals};
-use glam::DVec3;
+use crate::{Mesh, Shape, mesh::CornerNormals, normals};
+use glam::{DVec2, DVec3};
+use std::borrow::Cow;
 
 /// Edges sharper than this stay sharp in the built-in meshes' normals, degrees.
 pub const CREASE_DEG: f64 = 40.0;
@@ -64,6 +65,27 @@ pub const NAMES: &[(&str, &str)] = &[
     ("fan", "three triangles on one edge, open: 3 triangles"),
     ("half-flipped", "unit ball with every second triangle turned over: 1,280 triangles"),
 ];
+
+/// Divisions of what stands for a round shape: its facets lie within 2e-4 of the
+/// radius below the surface.
+const ROUND: u32 = 32;
+
+/// A shape's triangles: a mesh itself, a box exactly, a ball or cylinder nearly;
+/// `None` for what has no bounds. Without normals for analytic shapes.
+#[must_use]
+pub fn triangulated(shape: &Shape) -> Option<Cow<'_, Mesh>> {
+    let mesh = match *shape {
+        Shape::Mesh(ref mesh) => return Some(Cow::Borrowed(mesh)),
+        Shape::Sphere { radius_m } => geodesic(ROUND).with_positions(|p| radius_m * p),
+        Shape::Box { half_extent_m } => cuboid(half_extent_m),
+        Shape::Cylinder { radius_m: r, half_height_m: h } => {
+            let profile = [(0.0, -h), (r, -h), (r, h), (0.0, h)];
+            revolve(&profile.map(|(x, y)| DVec2::new(x, y)), 6 * ROUND, false)
+        }
+        Shape::Slab { .. } | Shape::HalfSpace => return None,
+    };
+    Some(Cow::Owned(Mesh { normals: None, ..mesh }))
+}
 
 /// A built-in mesh, or `None` if there is none of that name.
 #[must_use]

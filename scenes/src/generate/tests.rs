@@ -195,3 +195,20 @@ fn parameters_do_not_open_the_surface() {
     let report: Report = inspect(&extruded(&square, 1.0));
     assert!((report.signed_volume_m3 - 4.0).abs() < 1e-15);
 }
+
+/// Analytic shapes become closed meshes of about their volume, a box exactly.
+#[test]
+fn analytic_shapes_can_be_triangulated() {
+    let pi = std::f64::consts::PI;
+    for (shape, volume_m3, within) in [
+        (Shape::Box { half_extent_m: DVec3::new(1.0, 2.0, 0.5) }, 8.0, 1e-14),
+        (Shape::Sphere { radius_m: 2.0 }, 32.0 / 3.0 * pi, 1e-3),
+        (Shape::Cylinder { radius_m: 0.5, half_height_m: 1.0 }, 0.5 * pi, 1e-3),
+    ] {
+        let report = inspect(&triangulated(&shape).unwrap());
+        assert_eq!(report.solid(), Ok(()), "{shape:?}");
+        let found = report.signed_volume_m3;
+        assert!((found / volume_m3 - 1.0).abs() <= within, "{shape:?}: {found}");
+    }
+    assert_eq!(triangulated(&Shape::HalfSpace), None);
+}
