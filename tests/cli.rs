@@ -322,8 +322,9 @@ fn stopping_progressive_rendering_leaves_the_last_whole_image() {
         std::thread::sleep(std::time::Duration::from_millis(5));
     }
     assert!(child.try_wait().unwrap().is_none(), "the work is too small for this test");
-    let interrupt = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
-    assert!(interrupt.unwrap().success());
+    // Not -INT, which a test in the background of a shell inherits as ignored.
+    let stop = Command::new("kill").args(["-TERM", &child.id().to_string()]).status();
+    assert!(stop.unwrap().success());
     assert!(!child.wait().unwrap().success());
     assert_eq!(scenes::image::read(&path).unwrap().resolution_px, [64, 64]);
 }

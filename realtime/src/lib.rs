@@ -7,6 +7,7 @@
 
 mod backdrop;
 mod composition;
+mod draft;
 mod error;
 mod frame;
 mod geometry;

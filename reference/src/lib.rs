@@ -32,6 +32,7 @@ mod polarised;
 mod policy;
 mod request;
 mod sampling;
+mod settle;
 mod soup;
 mod spectrum;
 mod stokes;

@@ -44,8 +44,8 @@ pub struct Spec {
     /// Seconds for which each method is timed.
     pub timing_s: f64,
     /// Time each frame a second time with everything kept, to say what leaving out
-    /// saves.
-    pub time_all_kept: bool,
+    /// saves, and trace the last point of the exact renderer's own curve.
+    pub thorough: bool,
     /// Where results and report go.
     pub out: PathBuf,
     /// Command line that repeats the study.

@@ -33,8 +33,9 @@ impl<'a> SceneWork<'a> {
         let k = spec.positions_per_axis;
         let truth = Exact::truth(scene, size, k, spec.cut);
         let cheaper = [(1, CHEAP_CUT), (1, spec.cut), (2, spec.cut), (3, spec.cut)];
-        let disjoint = cheaper.into_iter().filter(|(j, _)| is_disjoint(k, *j));
-        let curve = disjoint.map(|(j, cut)| Exact::estimate(scene, size, j, cut)).collect();
+        let cheaper = &cheaper[..if spec.thorough { 4 } else { 3 }];
+        let disjoint = cheaper.iter().filter(|(j, _)| is_disjoint(k, *j));
+        let curve = disjoint.map(|(j, cut)| Exact::estimate(scene, size, *j, *cut)).collect();
         Self { scene, truth, curve }
     }
 
@@ -115,7 +116,7 @@ impl<'a> SceneWork<'a> {
                     let common = common(&run, &made);
                     let judged = judge.judged(&made, &common)?;
                     rows.extend(judged.rows);
-                    let kept = if spec.time_all_kept { job.with_all_kept()? } else { None };
+                    let kept = if spec.thorough { job.with_all_kept()? } else { None };
                     if let Some(full) = kept {
                         rows.extend(times_with_all_kept(&full.passes(gpu)?, &common));
                     }
