@@ -5,7 +5,7 @@
 #![allow(clippy::unwrap_used, reason = "a failing test may panic")]
 
 use glam::DVec3;
-use reference::{Estimator, Level, Request};
+use reference::{DEFAULT_SPLIT, Estimator, Level, Request};
 use scenes::environment::{LatLong, Map};
 use scenes::{Camera, Cube, Environment, LayerName, Projection, Scene, View};
 use std::sync::Arc;
@@ -59,7 +59,7 @@ fn disagreement(scene: &Scene, change: f64) -> f64 {
         let (tree, lost) = radiance(&scene, Estimator::Tree { cut: 1e-6 });
         let seed = 1 + i as u64;
         let (paths, variance) =
-            radiance(&scene, Estimator::Paths { batches: 32, samples: SAMPLES, seed });
+            radiance(&scene, Estimator::Paths { batches: 32, samples: SAMPLES, split: DEFAULT_SPLIT, seed });
         // Of 32 batches one in ten thousand lies beyond 4.5. What none of n paths met
         // happens at most 3 times in n, and carries what is left to chance.
         let unseen = 3.0 / f64::from(32 * SAMPLES) * LEFT_TO_CHANCE * BRIGHTEST;

@@ -54,7 +54,7 @@ pub use job::Watch;
 pub use layers::LAYERS;
 pub use plan::plan;
 pub use request::{
-    EnvironmentLookup, Estimator, FEWEST_WAVELENGTHS, Fresnel, Level, Request, Restriction,
+    DEFAULT_SPLIT, EnvironmentLookup, Estimator, FEWEST_WAVELENGTHS, Fresnel, Level, Request, Restriction,
     Spectrum,
 };
 pub use triangles::{Hit, Triangles};

@@ -29,8 +29,11 @@ impl<M: Media> Light<'_, '_, M> {
     ) {
         pixel.bounces = vec![DVec3::ZERO; self.job.columns.bounces];
         let count = match self.job.request.estimator {
-            Estimator::Paths { batches, samples, seed } if self.job.request.level != Level::R0 => {
-                self.batches::<UNIFORM, LENGTHS>(corner_px, pixel, [batches, samples], seed);
+            Estimator::Paths { batches, samples, split, seed }
+                if self.job.request.level != Level::R0 =>
+            {
+                let size = [batches, samples];
+                self.batches::<UNIFORM, LENGTHS>(corner_px, pixel, size, split, seed);
                 f64::from(batches) * f64::from(samples)
             }
             estimator => {
@@ -59,6 +62,7 @@ impl<M: Media> Light<'_, '_, M> {
         corner_px: DVec2,
         pixel: &mut Pixel,
         [batches, samples]: [u32; 2],
+        split: f64,
         seed: u64,
     ) {
         let width = f64::from(self.job.request.view.resolution_px[0]);
@@ -70,7 +74,8 @@ impl<M: Media> Light<'_, '_, M> {
             let points = Points::new(seed, index, batch);
             for sample in 0..samples {
                 let at = corner_px + DVec2::from_array(points.pair(sample, 0));
-                self.position::<_, UNIFORM, LENGTHS>(at, Roulette::new(points, sample), pixel);
+                let policy = Roulette::new(points, sample, split);
+                self.position::<_, UNIFORM, LENGTHS>(at, policy, pixel);
             }
             let estimate = (pixel.radiance - before) / f64::from(samples);
             let step = estimate - mean;

@@ -43,20 +43,20 @@ impl Policy for Cut {
 pub(crate) struct Roulette {
     points: Points,
     sample: u32,
+    /// Weight from which on both continuations are followed.
+    split: f64,
     /// Random numbers drawn so far.
     drawn: u32,
     kept: f64,
 }
 
-/// Weight above which both continuations are followed.
-const SPLIT: f64 = 1.0 / 32.0;
 /// Throughput below which a path must survive a draw.
 const FADED: f64 = 1.0 / 64.0;
 
 impl Roulette {
     /// The first pair of dimensions is the caller's, for the position.
-    pub(crate) fn new(points: Points, sample: u32) -> Self {
-        Self { points, sample, drawn: 2, kept: 0.0 }
+    pub(crate) fn new(points: Points, sample: u32, split: f64) -> Self {
+        Self { points, sample, split, drawn: 2, kept: 0.0 }
     }
 
     fn draw(&mut self) -> f64 {
@@ -75,7 +75,7 @@ impl Roulette {
 impl Policy for Roulette {
     fn choose(&mut self, [reflected, transmitted]: [f64; 2], present: f64) -> Choice {
         let whole = reflected + transmitted;
-        if reflected.min(transmitted) * present >= SPLIT {
+        if reflected.min(transmitted) * present >= self.split {
             return Choice { reflected, transmitted, lost: 0.0 };
         }
         let mut weight = whole;

@@ -73,10 +73,16 @@ pub enum Estimator {
         batches: u32,
         /// Camera rays per pixel and batch.
         samples: u32,
+        /// Weight, of 1 per camera ray, from which on both continuations of an
+        /// event are followed, 0 to 1; below it one at random. 1: one path.
+        split: f64,
         /// Seed of the sample sequence.
         seed: u64,
     },
 }
+
+/// The split weight that serves most scenes well.
+pub const DEFAULT_SPLIT: f64 = 1.0 / 32.0;
 
 /// Which form of the environment map is looked up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -151,6 +157,9 @@ impl Request {
             }
             Estimator::Paths { batches: 0, .. } | Estimator::Paths { samples: 0, .. } => {
                 range("batches or samples", "0".to_owned(), "at least 1")
+            }
+            Estimator::Paths { split, .. } if !(0.0..=1.0).contains(&split) => {
+                range("split weight", split.to_string(), "0 to 1")
             }
             _ => Ok(()),
         }

@@ -24,7 +24,17 @@ pub(crate) struct Pierce {
     pub(crate) entering: bool,
 }
 
-impl Pierce {
+/// A passage as it is found: what [`Pierce`] says of it is worked out once it
+/// is known to be the answer.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Passage {
+    pub(crate) t: f64,
+    /// Twice the areas that the line's place spans with the edges opposite to
+    /// each corner; all of one sign, also where they are zero.
+    pub(crate) areas: [f64; 3],
+}
+
+impl Passage {
     /// The passage of a line through a triangle, coordinate by corner and axis.
     #[inline(always)]
     pub(crate) fn new(line: &Line, at: impl Fn(usize, usize) -> f64) -> Option<Self> {
@@ -43,8 +53,15 @@ impl Pierce {
         if sum == 0.0 {
             return None;
         }
-        let t = (u * a_t + v * b_t + w * c_t) / sum;
-        Some(Self { t, weights: [u / sum, v / sum, w / sum], entering: !negative })
+        Some(Self { t: (u * a_t + v * b_t + w * c_t) / sum, areas: [u, v, w] })
+    }
+}
+
+impl From<Passage> for Pierce {
+    #[inline(always)]
+    fn from(Passage { t, areas }: Passage) -> Self {
+        let sum = areas[0] + areas[1] + areas[2];
+        Self { t, weights: areas.map(|area| area / sum), entering: areas[0].is_sign_positive() }
     }
 }
 
@@ -53,7 +70,7 @@ impl Triangle {
     /// full line a closed mesh is entered exactly as often as it is left.
     #[cfg(test)]
     pub(crate) fn pierce(&self, line: &Line) -> Option<Pierce> {
-        Pierce::new(line, |corner, axis| self.corners[corner][axis])
+        Passage::new(line, |corner, axis| self.corners[corner][axis]).map(Pierce::from)
     }
 
     pub(crate) fn corner(&self, i: usize) -> DVec3 {

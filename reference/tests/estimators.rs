@@ -5,7 +5,7 @@ mod common;
 
 use common::{cup, furnace, icosphere, object, torus, view};
 use glam::DVec3;
-use reference::{Error, Estimator, Level, Request, Restriction, render};
+use reference::{DEFAULT_SPLIT, Error, Estimator, Level, Request, Restriction, render};
 use scenes::environment::{LatLong, Map};
 use scenes::scene::Normals;
 use scenes::{
@@ -65,7 +65,7 @@ fn disagreement(scene: &Scene, restriction: Restriction) -> f64 {
         let scene = through(scene, target);
         let tree = Request { restriction, ..ask(Estimator::Tree { cut: 1e-7 }, false) };
         let tree = render(&scene, &tree).unwrap();
-        let paths = Estimator::Paths { batches: 32, samples: 256, seed: i.into() };
+        let paths = Estimator::Paths { batches: 32, samples: 256, split: DEFAULT_SPLIT, seed: i.into() };
         let paths = render(&scene, &ask(paths, true)).unwrap();
         let data = |r: &scenes::Rendering, name| r.layers.get(&name).unwrap().data.clone();
         let lost = data(&tree, LayerName::Truncated)[0] * 4.0;
@@ -99,7 +99,7 @@ fn the_variance_is_that_of_the_mean() {
     for i in 0..60_u32 {
         let scene = through(&scene, DVec3::new(0.01 * f64::from(i) - 0.3, 0.2, 0.0));
         let tree = render(&scene, &ask(Estimator::Tree { cut: 1e-7 }, false)).unwrap();
-        let paths = Estimator::Paths { batches: 16, samples: 4, seed: 100 + u64::from(i) };
+        let paths = Estimator::Paths { batches: 16, samples: 4, split: DEFAULT_SPLIT, seed: 100 + u64::from(i) };
         let paths = render(&scene, &ask(paths, true)).unwrap();
         let value = |r: &scenes::Rendering, name| r.layers.get(&name).unwrap().data[0];
         let variance = value(&paths, LayerName::Variance);
@@ -118,7 +118,7 @@ fn a_furnace_has_no_variance() {
     let scene = furnace(vec![object(Shape::Mesh(cup()), 1, Normals::Smooth)], 1.5);
     let layers = [LayerName::Radiance, LayerName::Variance, LayerName::Truncated];
     let mut request = Request::new(view(32, 1, &layers), Level::R1);
-    request.estimator = Estimator::Paths { batches: 2, samples: 4, seed: 3 };
+    request.estimator = Estimator::Paths { batches: 2, samples: 4, split: DEFAULT_SPLIT, seed: 3 };
     let rendering = render(&scene, &request).unwrap();
     let data = |name| &rendering.layers.get(&name).unwrap().data;
     assert!(data(LayerName::Radiance).iter().all(|v| (v - 1.0).abs() < 1e-12));

@@ -2,7 +2,7 @@
 
 use crate::Error;
 use clap::ValueEnum;
-use reference::{EnvironmentLookup, Estimator, Fresnel, Level, Request, Restriction, Spectrum};
+use reference::{DEFAULT_SPLIT, EnvironmentLookup, Estimator, Fresnel, Level, Request, Restriction, Spectrum};
 use scenes::View;
 
 /// How light is followed.
@@ -24,6 +24,10 @@ pub(super) struct ExactArgs {
     /// Paths: camera rays per pixel and batch [default: 16]
     #[arg(long, value_name = "N")]
     samples: Option<u32>,
+    /// Paths: weight, of 1 per camera ray, from which on both continuations of an event are
+    /// followed and not one at random; 1: never [default: 1/32]
+    #[arg(long, value_name = "WEIGHT")]
+    split: Option<f64>,
     /// Paths: seed; the same seed gives the same image [default: 0]
     #[arg(long, value_name = "SEED")]
     seed: Option<u64>,
@@ -116,6 +120,7 @@ impl ExactArgs {
             ("--positions", positions_given, paths),
             ("--batches", self.batches.is_some(), !paths),
             ("--samples", self.samples.is_some(), !paths),
+            ("--split", self.split.is_some(), !paths),
             ("--seed", self.seed.is_some(), !paths),
         ];
         if let Some((flag, ..)) = of_the_other.iter().find(|(_, given, other)| *given && *other) {
@@ -128,6 +133,7 @@ impl ExactArgs {
             Estimator::Paths {
                 batches: self.batches.unwrap_or(16),
                 samples: self.samples.unwrap_or(16),
+                split: self.split.unwrap_or(DEFAULT_SPLIT),
                 seed: self.seed.unwrap_or(0),
             }
         } else {

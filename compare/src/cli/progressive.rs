@@ -59,7 +59,7 @@ fn stages(request: &Request) -> Vec<Request> {
     }
     if let (Some(first), true) = (stages.first_mut(), can_be_random(request)) {
         // One path in place of a tree: the same image on average, much sooner.
-        first.estimator = Estimator::Paths { batches: 1, samples: 1, seed: 0 };
+        first.estimator = Estimator::Paths { batches: 1, samples: 1, split: 1.0, seed: 0 };
     }
     stages.push(request.clone());
     stages
@@ -100,7 +100,7 @@ mod tests {
 
     #[test]
     fn the_last_stage_is_what_was_asked_for_and_the_first_has_one_ray() {
-        let paths = |batches, samples| Estimator::Paths { batches, samples, seed: 3 };
+        let paths = |batches, samples| Estimator::Paths { batches, samples, split: 1.0, seed: 3 };
         for (estimator, layers, rays) in [
             (Estimator::Tree { cut: 1e-4 }, vec![LayerName::Radiance], vec![1, 4, 16, 36]),
             (paths(16, 4), vec![LayerName::Radiance], vec![1, 4, 16, 64]),

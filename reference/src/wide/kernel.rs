@@ -1,7 +1,7 @@
 //! The two inner loops, and how they are done without vector instructions.
 //!
 //! For triangles all kernels do the operations of
-//! [`Pierce::new`](crate::triangle::Pierce::new) in its order, so they answer
+//! [`Passage::new`](crate::triangle::Passage::new) in its order, so they answer
 //! with its bits, and leave to it what passes through an edge. For boxes they
 //! may round differently, because what is answered does not depend on boxes.
 
@@ -9,6 +9,7 @@ use super::node::{Block, LANES, Node, WIDTH};
 use super::ray::BoxRay;
 use super::stack::{Keys, LANE, NONE};
 use crate::line::Line;
+use crate::triangle::Passage;
 
 /// What runs on a kernel, whichever it is.
 pub(crate) trait Job {
@@ -47,11 +48,26 @@ pub(crate) trait Kernel: Copy {
     /// left out.
     fn candidates(self, line: &Self::Lanes, block: &Block) -> (u32, Self::Seen);
 
-    /// One bit for each triangle that the line pierces inside its edges, and t of
-    /// its passage through each of those, the bits of [`Pierce::new`].
+    /// One bit for each triangle that the line pierces inside its edges, and its
+    /// passages through those, with the bits of [`Passage::new`].
     ///
-    /// [`Pierce::new`]: crate::triangle::Pierce::new
-    fn clear(self, line: &Self::Lanes, seen: &Self::Seen) -> (u32, [f64; LANES]);
+    /// [`Passage::new`]: crate::triangle::Passage::new
+    fn clear(self, line: &Self::Lanes, seen: &Self::Seen) -> (u32, Passages);
+}
+
+/// [`Passage`](crate::triangle::Passage)s through the triangles of a block.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(32))]
+pub(crate) struct Passages {
+    pub(crate) t: [f64; LANES],
+    pub(crate) areas: [[f64; LANES]; 3],
+}
+
+impl Passages {
+    #[inline(always)]
+    pub(crate) fn of(&self, lane: usize) -> Passage {
+        Passage { t: self.t[lane], areas: self.areas.map(|areas| areas[lane]) }
+    }
 }
 
 /// Plain Rust.
@@ -139,7 +155,7 @@ impl Kernel for Portable {
     }
 
     #[inline(always)]
-    fn clear(self, line: &Line, seen: &Seen) -> (u32, [f64; LANES]) {
+    fn clear(self, line: &Line, seen: &Seen) -> (u32, Passages) {
         let ([u, v, w], [a, b, c]) = (&seen.areas, &seen.depths);
         let clear = lanes(|i| {
             let all = seen.areas.iter().all(|area| area[i] > 0.0);
@@ -149,7 +165,7 @@ impl Kernel for Portable {
             let [a_t, b_t, c_t] = [a[i], b[i], c[i]].map(|depth| depth * line.inverse_z);
             (u[i] * a_t + v[i] * b_t + w[i] * c_t) / (u[i] + v[i] + w[i])
         });
-        (clear, t)
+        (clear, Passages { t, areas: seen.areas })
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::stack::LANE;
 use crate::line::Line;
-use crate::triangle::{Pierce, Triangle};
+use crate::triangle::{Passage, Triangle};
 use glam::DVec3;
 
 /// Children of a node.
@@ -89,8 +89,8 @@ impl Block {
 
     /// A line's passage through a triangle.
     #[inline(always)]
-    pub(crate) fn pierce(&self, line: &Line, lane: usize) -> Option<Pierce> {
-        Pierce::new(line, |corner, axis| self.corners[corner][axis][lane])
+    pub(crate) fn passage(&self, line: &Line, lane: usize) -> Option<Passage> {
+        Passage::new(line, |corner, axis| self.corners[corner][axis][lane])
     }
 
     #[inline(always)]

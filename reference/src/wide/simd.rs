@@ -1,7 +1,7 @@
 //! The inner loops in AVX2 and AVX-512, chosen when the program runs.
 #![allow(unsafe_code, reason = "vector instructions; every use is behind a check of the CPU")]
 
-use super::kernel::{Job, Kernel};
+use super::kernel::{Job, Kernel, Passages};
 use super::node::{Block, LANES, Node};
 use super::ray::BoxRay;
 use super::stack::{Keys, LANE, NONE};
@@ -136,7 +136,7 @@ impl Kernel for Avx2 {
     }
 
     #[inline(always)]
-    fn clear(self, line: &Lanes, seen: &Seen) -> (u32, [f64; LANES]) {
+    fn clear(self, line: &Lanes, seen: &Seen) -> (u32, Passages) {
         let [u, v, w] = seen.areas;
         // SAFETY: `self` exists, so the CPU has AVX2 and FMA.
         unsafe {
@@ -149,9 +149,11 @@ impl Kernel for Avx2 {
             let of_two = _mm256_add_pd(_mm256_mul_pd(u, a_t), _mm256_mul_pd(v, b_t));
             let of_all = _mm256_add_pd(of_two, _mm256_mul_pd(w, c_t));
             let sum = _mm256_add_pd(_mm256_add_pd(u, v), w);
-            let mut t = [0.0; LANES];
-            _mm256_storeu_pd(t.as_mut_ptr(), _mm256_div_pd(of_all, sum));
-            (_mm256_movemask_pd(_mm256_or_pd(all, none)) as u32, t)
+            let passages = Passages {
+                t: to_array(_mm256_div_pd(of_all, sum)),
+                areas: [to_array(u), to_array(v), to_array(w)],
+            };
+            (_mm256_movemask_pd(_mm256_or_pd(all, none)) as u32, passages)
         }
     }
 }
@@ -192,6 +194,13 @@ unsafe fn see(line: &Lanes, block: &Block, corner: usize) -> (__m256d, __m256d, 
             depth,
         )
     }
+}
+
+#[inline(always)]
+unsafe fn to_array(lanes: __m256d) -> [f64; LANES] {
+    let mut array = [0.0; LANES];
+    unsafe { _mm256_storeu_pd(array.as_mut_ptr(), lanes) };
+    array
 }
 
 #[inline(always)]

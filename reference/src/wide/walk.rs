@@ -11,7 +11,7 @@ use super::node::{Block, Child, LANES};
 use super::ray::BoxRay;
 use super::stack::{Stack, latest};
 use crate::line::Line;
-use crate::triangle::Pierce;
+use crate::triangle::{Passage, Pierce};
 
 /// A crossing with a triangle and where the tree keeps it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,12 +59,12 @@ impl Tree {
         instructions.run(Nearest { tree: self, line, query, stack })
     }
 
-    /// The crossing with the triangle in a slot.
+    /// What is to be said of a passage through the triangle in a slot.
     #[inline(always)]
-    fn hit(&self, line: &Line, slot: u32) -> Option<TriangleHit> {
+    fn hit(&self, slot: u32, passage: Passage) -> TriangleHit {
         let (block, lane) = (&self.blocks[slot as usize / LANES], slot as usize % LANES);
         let (id, body) = (block.ids[lane], block.bodies[lane]);
-        block.pierce(line, lane).map(|pierce| TriangleHit { pierce, id, body, slot })
+        TriangleHit { pierce: passage.into(), id, body, slot }
     }
 
     /// Every crossing of the full line, in no particular order.
@@ -92,18 +92,18 @@ struct Met<'a, K: Kernel> {
 }
 
 impl<K: Kernel> Met<'_, K> {
-    /// Tells t and the lane of each crossing.
+    /// Tells each passage and its lane.
     #[inline(always)]
-    fn each(&self, mut each: impl FnMut(f64, usize)) {
-        let (clear, t) = self.kernel.clear(self.lanes, &self.seen);
+    fn each(&self, mut each: impl FnMut(Passage, usize)) {
+        let (clear, passages) = self.kernel.clear(self.lanes, &self.seen);
         let mut candidates = self.candidates;
         while candidates != 0 {
             let lane = candidates.trailing_zeros() as usize % LANES;
             candidates &= candidates - 1;
             if clear >> lane & 1 != 0 {
-                each(t[lane], lane);
-            } else if let Some(pierce) = self.block.pierce(self.line, lane) {
-                each(pierce.t, lane);
+                each(passages.of(lane), lane);
+            } else if let Some(passage) = self.block.passage(self.line, lane) {
+                each(passage, lane);
             }
         }
     }
@@ -124,42 +124,44 @@ impl Job for Nearest<'_> {
         let Self { tree, line, query, stack } = self;
         let ray = BoxRay::new(line, &tree.unit);
         let low = ray.not_after(query.after.0);
-        let first = (f64::INFINITY, u32::MAX);
-        let visitor = VisitNearest { ray: &ray, query, first, slot: None, second_t: first.0 };
+        let key = (f64::INFINITY, u32::MAX);
+        let visitor = VisitNearest { ray: &ray, query, key, first: None, second_t: key.0 };
         let mut walk = Walk::new(kernel, tree, line, &ray, low, stack, visitor);
         while walk.step() {}
-        let VisitNearest { slot, second_t, .. } = walk.visitor;
-        Closest { first: slot.and_then(|slot| tree.hit(line, slot)), second_t }
+        let VisitNearest { first, second_t, .. } = walk.visitor;
+        Closest { first: first.map(|(slot, passage)| tree.hit(slot, passage)), second_t }
     }
 }
 
 struct VisitNearest<'a> {
     ray: &'a BoxRay,
     query: Query,
-    first: (f64, u32),
-    slot: Option<u32>,
+    /// t and number of the closest so far.
+    key: (f64, u32),
+    /// Its slot, and the passage through it.
+    first: Option<(u32, Passage)>,
     second_t: f64,
 }
 
 impl Visitor for VisitNearest<'_> {
     #[inline(always)]
     fn visit(&mut self, met: Met<'_, impl Kernel>) -> Option<f32> {
-        let before = self.slot;
-        met.each(|t, lane| {
-            let key = (t, met.block.ids[lane]);
+        let before = self.key;
+        met.each(|passage, lane| {
+            let key = (passage.t, met.block.ids[lane]);
             if key.1 == self.query.skip || key <= self.query.after {
                 return;
             }
-            if key < self.first {
-                self.second_t = self.first.0;
-                self.first = key;
-                self.slot = Some((met.index * LANES + lane) as u32);
-            } else if t < self.second_t {
-                self.second_t = t;
+            if key < self.key {
+                self.second_t = self.key.0;
+                self.key = key;
+                self.first = Some(((met.index * LANES + lane) as u32, passage));
+            } else if key.0 < self.second_t {
+                self.second_t = key.0;
             }
         });
-        let t = self.first.0;
-        (self.slot != before).then(|| self.ray.not_before(t + met.line.rounding_at(t)))
+        let t = self.key.0;
+        (self.key != before).then(|| self.ray.not_before(t + met.line.rounding_at(t)))
     }
 }
 
@@ -191,9 +193,9 @@ struct VisitAll<'a, F> {
 impl<F: FnMut(TriangleHit)> Visitor for VisitAll<'_, F> {
     #[inline(always)]
     fn visit(&mut self, met: Met<'_, impl Kernel>) -> Option<f32> {
-        met.each(|_, lane| {
+        met.each(|passage, lane| {
             let slot = (met.index * LANES + lane) as u32;
-            self.tree.hit(met.line, slot).into_iter().for_each(&mut self.each);
+            (self.each)(self.tree.hit(slot, passage));
         });
         None
     }
@@ -249,12 +251,15 @@ impl<'a, K: Kernel, V: Visitor> Walk<'a, K, V> {
         } else {
             let node = &self.tree.nodes[child.index()];
             let (mask, keys) = self.kernel.meet(&self.boxes, node, self.limit);
-            if mask != 0 {
+            if mask & mask.wrapping_sub(1) != 0 {
                 let (key, others) = self.kernel.nearest(keys);
-                if mask & (mask - 1) != 0 {
-                    self.kernel.store(others, self.stack.push(child.index()));
-                }
+                self.kernel.store(others, self.stack.push(child.index()));
                 self.child = Some(node.child(key));
+                return true;
+            }
+            if mask != 0 {
+                // The only one: which it is need not wait for the keys.
+                self.child = Some(node.child(mask.trailing_zeros() as i32));
                 return true;
             }
         }
