@@ -58,8 +58,10 @@ fn disagreement(scene: &Scene, change: f64) -> f64 {
         let scene = Scene { camera: one_ray(&scene.camera, at), ..scene.clone() };
         let (tree, lost) = radiance(&scene, Estimator::Tree { cut: 1e-6 });
         let seed = 1 + i as u64;
-        let (paths, variance) =
-            radiance(&scene, Estimator::Paths { batches: 32, samples: SAMPLES, split: DEFAULT_SPLIT, seed });
+        let (paths, variance) = radiance(
+            &scene,
+            Estimator::Paths { batches: 32, samples: SAMPLES, split: DEFAULT_SPLIT, seed },
+        );
         // Of 32 batches one in ten thousand lies beyond 4.5. What none of n paths met
         // happens at most 3 times in n, and carries what is left to chance.
         let unseen = 3.0 / f64::from(32 * SAMPLES) * LEFT_TO_CHANCE * BRIGHTEST;

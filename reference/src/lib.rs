@@ -54,8 +54,8 @@ pub use job::Watch;
 pub use layers::LAYERS;
 pub use plan::plan;
 pub use request::{
-    DEFAULT_SPLIT, EnvironmentLookup, Estimator, FEWEST_WAVELENGTHS, Fresnel, Level, Request, Restriction,
-    Spectrum,
+    DEFAULT_SPLIT, EnvironmentLookup, Estimator, FEWEST_WAVELENGTHS, Fresnel, Level, Request,
+    Restriction, Spectrum,
 };
 pub use triangles::{Hit, Triangles};
 pub use wide::Instructions;

@@ -65,7 +65,8 @@ fn disagreement(scene: &Scene, restriction: Restriction) -> f64 {
         let scene = through(scene, target);
         let tree = Request { restriction, ..ask(Estimator::Tree { cut: 1e-7 }, false) };
         let tree = render(&scene, &tree).unwrap();
-        let paths = Estimator::Paths { batches: 32, samples: 256, split: DEFAULT_SPLIT, seed: i.into() };
+        let paths =
+            Estimator::Paths { batches: 32, samples: 256, split: DEFAULT_SPLIT, seed: i.into() };
         let paths = render(&scene, &ask(paths, true)).unwrap();
         let data = |r: &scenes::Rendering, name| r.layers.get(&name).unwrap().data.clone();
         let lost = data(&tree, LayerName::Truncated)[0] * 4.0;
@@ -99,7 +100,12 @@ fn the_variance_is_that_of_the_mean() {
     for i in 0..60_u32 {
         let scene = through(&scene, DVec3::new(0.01 * f64::from(i) - 0.3, 0.2, 0.0));
         let tree = render(&scene, &ask(Estimator::Tree { cut: 1e-7 }, false)).unwrap();
-        let paths = Estimator::Paths { batches: 16, samples: 4, split: DEFAULT_SPLIT, seed: 100 + u64::from(i) };
+        let paths = Estimator::Paths {
+            batches: 16,
+            samples: 4,
+            split: DEFAULT_SPLIT,
+            seed: 100 + u64::from(i),
+        };
         let paths = render(&scene, &ask(paths, true)).unwrap();
         let value = |r: &scenes::Rendering, name| r.layers.get(&name).unwrap().data[0];
         let variance = value(&paths, LayerName::Variance);

@@ -2,7 +2,9 @@
 
 use crate::Error;
 use clap::ValueEnum;
-use reference::{DEFAULT_SPLIT, EnvironmentLookup, Estimator, Fresnel, Level, Request, Restriction, Spectrum};
+use reference::{
+    DEFAULT_SPLIT, EnvironmentLookup, Estimator, Fresnel, Level, Request, Restriction, Spectrum,
+};
 use scenes::View;
 
 /// How light is followed.

@@ -56,7 +56,9 @@ impl Tree {
         query: Query,
         stack: &mut Stack,
     ) -> Closest {
-        instructions.run(Nearest { tree: self, line, query, stack })
+        // Made here, where the line still is in registers.
+        let ray = BoxRay::new(line, &self.unit);
+        instructions.run(Nearest { tree: self, line, ray: &ray, query, stack })
     }
 
     /// What is to be said of a passage through the triangle in a slot.
@@ -112,6 +114,7 @@ impl<K: Kernel> Met<'_, K> {
 struct Nearest<'a> {
     tree: &'a Tree,
     line: &'a Line,
+    ray: &'a BoxRay,
     query: Query,
     stack: &'a mut Stack,
 }
@@ -121,14 +124,12 @@ impl Job for Nearest<'_> {
 
     #[inline(always)]
     fn run<K: Kernel>(self, kernel: K) -> Closest {
-        let Self { tree, line, query, stack } = self;
-        let ray = BoxRay::new(line, &tree.unit);
+        let Self { tree, line, ray, query, stack } = self;
         let low = ray.not_after(query.after.0);
         let key = (f64::INFINITY, u32::MAX);
-        let visitor = VisitNearest { ray: &ray, query, key, first: None, second_t: key.0 };
-        let mut walk = Walk::new(kernel, tree, line, &ray, low, stack, visitor);
-        while walk.step() {}
-        let VisitNearest { first, second_t, .. } = walk.visitor;
+        let mut visitor = VisitNearest { ray, query, key, first: None, second_t: key.0 };
+        Walk::new(kernel, tree, ray, low, stack).run(line, ray, &mut visitor);
+        let VisitNearest { first, second_t, .. } = visitor;
         Closest { first: first.map(|(slot, passage)| tree.hit(slot, passage)), second_t }
     }
 }
@@ -179,9 +180,8 @@ impl<F: FnMut(TriangleHit)> Job for All<'_, F> {
         let Self { tree, line, each } = self;
         let ray = BoxRay::new(line, &tree.unit);
         let mut stack = Stack::default();
-        let (low, visitor) = (f32::NEG_INFINITY, VisitAll { tree, each });
-        let mut walk = Walk::new(kernel, tree, line, &ray, low, &mut stack, visitor);
-        while walk.step() {}
+        let walk = Walk::new(kernel, tree, &ray, f32::NEG_INFINITY, &mut stack);
+        walk.run(line, &ray, &mut VisitAll { tree, each });
     }
 }
 
@@ -202,69 +202,62 @@ impl<F: FnMut(TriangleHit)> Visitor for VisitAll<'_, F> {
 }
 
 /// Visits the blocks that a line may meet between `low` and the limit that
-/// visits return, about nearest first, a step at a time.
-struct Walk<'a, K: Kernel, V> {
+/// visits return, about nearest first.
+struct Walk<'a, K: Kernel> {
     kernel: K,
     tree: &'a Tree,
-    line: &'a Line,
     boxes: K::Boxes,
-    lanes: K::Lanes,
     limit: f32,
     last: i32,
-    child: Option<Child>,
     stack: &'a mut Stack,
-    visitor: V,
 }
 
-impl<'a, K: Kernel, V: Visitor> Walk<'a, K, V> {
+impl<'a, K: Kernel> Walk<'a, K> {
     #[inline(always)]
-    fn new(
-        kernel: K,
-        tree: &'a Tree,
-        line: &'a Line,
-        ray: &BoxRay,
-        low: f32,
-        stack: &'a mut Stack,
-        visitor: V,
-    ) -> Self {
+    fn new(kernel: K, tree: &'a Tree, ray: &BoxRay, low: f32, stack: &'a mut Stack) -> Self {
         stack.clear();
-        let (boxes, lanes) = (kernel.boxes(ray, low), kernel.lanes(line));
         let (limit, last) = (f32::INFINITY, latest(f32::INFINITY));
-        let child = tree.root.filter(|_| ray.is_usable());
-        Self { kernel, tree, line, boxes, lanes, limit, last, child, stack, visitor }
+        Self { kernel, tree, boxes: kernel.boxes(ray, low), limit, last, stack }
     }
 
-    /// Visits a node or a block; false where there is none left.
     #[inline(always)]
-    fn step(&mut self) -> bool {
-        let Some(child) = self.child else { return false };
-        if child.is_block() {
-            let (index, block) = (child.index(), &self.tree.blocks[child.index()]);
-            let (candidates, seen) = self.kernel.candidates(&self.lanes, block);
+    fn run(mut self, line: &Line, ray: &BoxRay, visitor: &mut impl Visitor) {
+        let (kernel, lanes) = (self.kernel, &self.kernel.lanes(line));
+        let Some(mut child) = self.tree.root.filter(|_| ray.is_usable()) else { return };
+        while let Some(block) = self.down(child) {
+            let index = block.index();
+            let block = &self.tree.blocks[index];
+            let (candidates, seen) = kernel.candidates(lanes, block);
             if candidates != 0 {
-                let Self { kernel, line, ref lanes, .. } = *self;
                 let met = Met { kernel, line, lanes, block, index, candidates, seen };
-                if let Some(limit) = self.visitor.visit(met) {
+                if let Some(limit) = visitor.visit(met) {
                     (self.limit, self.last) = (limit, latest(limit));
                 }
             }
-        } else {
-            let node = &self.tree.nodes[child.index()];
-            let (mask, keys) = self.kernel.meet(&self.boxes, node, self.limit);
-            if mask & mask.wrapping_sub(1) != 0 {
+            let Some(next) = self.waiting() else { return };
+            child = next;
+        }
+    }
+
+    /// The next block: the child, or one below it, or one that waits.
+    #[inline(always)]
+    fn down(&mut self, mut child: Child) -> Option<Child> {
+        let (nodes, limit) = (self.tree.nodes.as_slice(), self.limit);
+        while !child.is_block() {
+            let node = &nodes[child.index()];
+            let (mask, keys) = self.kernel.meet(&self.boxes, node, limit);
+            child = if mask & mask.wrapping_sub(1) != 0 {
                 let (key, others) = self.kernel.nearest(keys);
                 self.kernel.store(others, self.stack.push(child.index()));
-                self.child = Some(node.child(key));
-                return true;
-            }
-            if mask != 0 {
+                node.child(key)
+            } else if mask != 0 {
                 // The only one: which it is need not wait for the keys.
-                self.child = Some(node.child(mask.trailing_zeros() as i32));
-                return true;
-            }
+                node.child(mask.trailing_zeros() as i32)
+            } else {
+                self.waiting()?
+            };
         }
-        self.child = self.waiting();
-        self.child.is_some()
+        Some(child)
     }
 
     /// The child to go on with that was met first.
