@@ -66,7 +66,8 @@ pub(crate) struct Passages {
 impl Passages {
     #[inline(always)]
     pub(crate) fn of(&self, lane: usize) -> Passage {
-        Passage { t: self.t[lane], areas: self.areas.map(|areas| areas[lane]) }
+        let [u, v, w] = &self.areas;
+        Passage { t: self.t[lane], areas: [u[lane], v[lane], w[lane]] }
     }
 }
 

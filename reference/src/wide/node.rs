@@ -87,8 +87,9 @@ impl Block {
         self.bodies[lane] = triangle.body;
     }
 
-    /// A line's passage through a triangle.
-    #[inline(always)]
+    /// A line's passage through a triangle. Seldom needed: kernels know most.
+    #[cold]
+    #[inline(never)]
     pub(crate) fn passage(&self, line: &Line, lane: usize) -> Option<Passage> {
         Passage::new(line, |corner, axis| self.corners[corner][axis][lane])
     }

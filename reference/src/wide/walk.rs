@@ -147,13 +147,14 @@ struct VisitNearest<'a> {
 impl Visitor for VisitNearest<'_> {
     #[inline(always)]
     fn visit(&mut self, met: Met<'_, impl Kernel>) -> Option<f32> {
-        let before = self.key;
+        let mut nearer = false;
         met.each(|passage, lane| {
             let key = (passage.t, met.block.ids[lane]);
             if key.1 == self.query.skip || key <= self.query.after {
                 return;
             }
             if key < self.key {
+                nearer = true;
                 self.second_t = self.key.0;
                 self.key = key;
                 self.first = Some(((met.index * LANES + lane) as u32, passage));
@@ -162,7 +163,7 @@ impl Visitor for VisitNearest<'_> {
             }
         });
         let t = self.key.0;
-        (self.key != before).then(|| self.ray.not_before(t + met.line.rounding_at(t)))
+        nearer.then(|| self.ray.not_before(t + met.line.rounding_at(t)))
     }
 }
 
