@@ -82,6 +82,9 @@ impl World {
             if own.is_some_and(|own| !own.inside) {
                 continue;
             }
+            if own.is_none() && analytic.is_passed_by(line) {
+                continue;
+            }
             let Some(chord) = analytic.chord(line) else {
                 next.lost |= own.is_some();
                 continue;
@@ -110,7 +113,7 @@ impl World {
     pub(crate) fn all_crossings(&self, line: &Line, into: &mut Vec<Crossing>) {
         into.clear();
         self.tree.crossings(line, |hit| into.push(Crossing::of_triangle(hit)));
-        for analytic in &self.analytic {
+        for analytic in self.analytic.iter().filter(|analytic| !analytic.is_passed_by(line)) {
             for (side, touch) in analytic.chord(line).into_iter().flatten().enumerate() {
                 let (t, point, normal) = touch;
                 let place = Place::Analytic { point, normal };

@@ -27,6 +27,7 @@ mod media;
 mod normals;
 mod opaque;
 mod optics;
+mod placed;
 mod plan;
 mod polarised;
 mod policy;

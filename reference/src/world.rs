@@ -1,14 +1,13 @@
 //! The scene at one moment, in world space and ready to be traced.
 
 use crate::error::Error;
-use crate::line::Line;
 use crate::normals::{Smooth, smooth_normals};
+use crate::placed::Placed;
 use crate::request::Level;
-use crate::topology::unmatched_edges;
-
 use crate::soup::Soup;
+use crate::topology::unmatched_edges;
 use crate::wide::{MOST_TRIANGLES, Tree};
-use glam::{DAffine3, DMat3, DVec3};
+use glam::{DAffine3, DVec3};
 use scenes::air::bubbles;
 use scenes::crack::cracks;
 use scenes::scene::{Bump, Normals};
@@ -21,7 +20,7 @@ pub(crate) struct World {
     pub(crate) tree: Tree,
     pub(crate) bodies: Vec<Body>,
     /// Bodies that are not in the tree.
-    pub(crate) analytic: Vec<Analytic>,
+    pub(crate) analytic: Vec<Placed>,
     /// Number of the first analytic body's entry; triangles have smaller ones.
     pub(crate) first_analytic: u32,
     /// Sorted by precedence.
@@ -69,19 +68,6 @@ impl Body {
     pub(crate) fn class(&self) -> Option<usize> {
         if let Role::Solid(class) = self.role { Some(class) } else { None }
     }
-}
-
-/// A convex shape without triangles.
-#[derive(Clone, Debug)]
-pub(crate) struct Analytic {
-    pub(crate) body: u32,
-    /// Number of its entry; the exit has the next.
-    pub(crate) id: u32,
-    pub(crate) shape: Arc<Shape>,
-    pub(crate) world_from_object: DAffine3,
-    pub(crate) object_from_world: DAffine3,
-    /// World normals from object normals, up to length.
-    pub(crate) normal_from_object: DMat3,
 }
 
 impl World {
@@ -177,22 +163,15 @@ impl World {
         triangles: &mut Soup,
     ) {
         let number = self.bodies.len() as u32;
-        let normal_from_object = body.object_from_world.matrix3.transpose();
         body.first_id = triangles.len() as u32;
         if shape.mesh().is_some() {
             triangles.add(shape, body.world_from_object, number);
             if normals == Normals::Smooth {
+                let normal_from_object = body.object_from_world.matrix3.transpose();
                 body.smooth = smooth_normals(shape, normal_from_object);
             }
         } else {
-            self.analytic.push(Analytic {
-                body: number,
-                id: 0,
-                shape: Arc::clone(shape),
-                world_from_object: body.world_from_object,
-                object_from_world: body.object_from_world,
-                normal_from_object,
-            });
+            self.analytic.push(Placed::new(number, shape, body.world_from_object));
         }
         self.bodies.push(body);
     }
@@ -272,18 +251,4 @@ fn classes_of(objects: &[(usize, &Object)], air: MediumId) -> Vec<Class> {
     classes.sort_by_key(|class| (std::cmp::Reverse(class.priority), class.medium));
     classes.dedup();
     classes
-}
-
-impl Analytic {
-    /// Where a line enters and leaves, and the outward unit normals, in world
-    /// space.
-    pub(crate) fn chord(&self, line: &Line) -> Option<[(f64, DVec3, DVec3); 2]> {
-        let origin = self.object_from_world.transform_point3(line.origin);
-        let direction = self.object_from_world.transform_vector3(line.direction);
-        let touches = crate::analytic::chord(&self.shape, origin, direction)?;
-        Some(touches.map(|touch| {
-            let point = self.world_from_object.transform_point3(touch.point);
-            (touch.t, point, (self.normal_from_object * touch.normal).normalize())
-        }))
-    }
 }
