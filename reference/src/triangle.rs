@@ -93,8 +93,10 @@ impl Triangle {
     /// Distance from a point of the triangle to its nearest edge.
     pub(crate) fn distance_to_edge(&self, point: DVec3) -> f64 {
         let [a, b, c] = [0, 1, 2].map(|i| self.corner(i));
-        let to = |p: DVec3, q: DVec3| (q - p).cross(point - p).length() / (q - p).length();
-        to(a, b).min(to(b, c)).min(to(c, a))
+        let squared = |p: DVec3, q: DVec3| {
+            (q - p).cross(point - p).length_squared() / (q - p).length_squared()
+        };
+        squared(a, b).min(squared(b, c)).min(squared(c, a)).sqrt()
     }
 }
 
