@@ -140,13 +140,12 @@ impl World {
             Place::Analytic { point, normal } => (point, normal, f64::INFINITY, normal),
             Place::Triangle { slot, weights } => {
                 let triangle = self.tree.triangle(slot);
-                let geometric = triangle.normal();
+                let (geometric, margin) = triangle.normal_and_margin(weights);
                 let shading = body.smooth.as_ref().map_or(geometric, |smooth| {
                     let n = smooth.at((crossing.id - body.first_id) as usize, weights);
                     if n == DVec3::ZERO { geometric } else { n }
                 });
-                let position = triangle.point(weights);
-                (position, geometric, triangle.distance_to_edge(position), shading)
+                (triangle.point(weights), geometric, margin, shading)
             }
         };
         if let Some(bump) = &body.bump {

@@ -90,13 +90,16 @@ impl Triangle {
         a + (b - a) * weights[1] + (c - a) * weights[2]
     }
 
-    /// Distance from a point of the triangle to its nearest edge.
-    pub(crate) fn distance_to_edge(&self, point: DVec3) -> f64 {
+    /// The unit normal, and the distance of the point with these weights to the
+    /// nearest edge.
+    pub(crate) fn normal_and_margin(&self, weights: [f64; 3]) -> (DVec3, f64) {
         let [a, b, c] = [0, 1, 2].map(|i| self.corner(i));
-        let squared = |p: DVec3, q: DVec3| {
-            (q - p).cross(point - p).length_squared() / (q - p).length_squared()
-        };
-        squared(a, b).min(squared(b, c)).min(squared(c, a)).sqrt()
+        let across = (b - a).cross(c - a);
+        // A height over an edge is twice an area over the edge's length.
+        let height2 = |weight: f64, edge: DVec3| weight * weight / edge.length_squared();
+        let [u, v, w] = weights;
+        let least = height2(u, c - b).min(height2(v, a - c)).min(height2(w, b - a));
+        (across.normalize_or_zero(), (least * across.length_squared()).sqrt())
     }
 }
 
@@ -118,6 +121,18 @@ mod tests {
             assert_eq!(pierce.entering, line.direction.dot(t.normal()) < 0.0);
             assert!((line.at(pierce.t) - to).length() < 1e-14);
             assert!((t.point(pierce.weights) - to).length() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn the_margin_is_the_distance_to_the_nearest_edge() {
+        let t = triangle([[0.0, 0.0, 2.0], [3.0, 0.0, 2.0], [0.0, 4.0, 2.0]]);
+        for (weights, distance) in
+            [([0.5, 0.25, 0.25], 0.75), ([0.1, 0.4, 0.5], 0.24), ([0.5, 0.4, 0.1], 0.4)]
+        {
+            let (normal, margin) = t.normal_and_margin(weights);
+            assert_eq!(normal, DVec3::Z);
+            assert!((margin - distance).abs() < 1e-15, "{margin} {distance}");
         }
     }
 

@@ -23,7 +23,7 @@ import sys
 
 SAMPLES = [64, 256, 1024]
 TRUTH = (16, 1e-4)
-TREES = [(k, cut) for cut in (1e-2, 1e-3) for k in (1, 2, 3, 4, 5, 6, 8)]
+TREES = [(k, cut) for cut in (1e-2, 3e-3, 1e-3) for k in (1, 2, 3, 4, 5, 6, 8)]
 PATHS = [1, 2, 4, 8, 16, 32, 64, 128]
 REPLACED = 64  # the flag of a replaced normal
 SCENES = {
