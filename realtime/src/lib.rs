@@ -24,6 +24,7 @@ mod peel;
 mod pieces;
 mod pipelines;
 mod plan;
+mod raster;
 mod readback;
 mod recorder;
 mod render;

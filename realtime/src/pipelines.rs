@@ -1,14 +1,14 @@
 //! Pipelines made from shaders: raster passes over the bodies and compute passes
 //! over the pixels. Layouts come from the WGSL.
 
-use crate::parts::{Corner, Draw, Formula, Parts};
+use crate::parts::{Draw, Formula, Parts};
+use crate::raster;
 use crate::recorder::{Allocator, Recorder};
 use crate::resources::Resources;
-use crate::surfaces::{Sides, Surfaces, Target};
+use crate::surfaces::{Sides, Surfaces};
 use crate::uniforms::{self, Analytic};
 use crate::wgsl::Shader;
 use crate::{Error, Gpu};
-use std::mem::size_of;
 use std::ops::Range;
 use wgpu::TextureUsages;
 
@@ -214,7 +214,7 @@ impl<'a> Maker<'a> {
     ) -> Result<Option<(wgpu::RenderPipeline, wgpu::BindGroup)>, Error> {
         let Some(shader) = &surfaces.behind else { return Ok(None) };
         let entries = ["sky_vertex", "sky_fragment"];
-        let pipeline = self.raster_pipeline(surfaces, shader, entries);
+        let pipeline = raster::pipeline(&self.gpu.device, surfaces, &self.module(shader), entries);
         let layout = pipeline.get_bind_group_layout(0);
         let bindings = resources.bind(self.gpu, shader, &entries, &layout, &[])?;
         Ok(Some((pipeline, bindings)))
@@ -228,8 +228,8 @@ impl<'a> Maker<'a> {
         let (Some(shader), Some(corners)) = (&surfaces.mesh, &self.corners) else {
             return Ok(None);
         };
-        let entries = MESH;
-        let pipeline = self.raster_pipeline(surfaces, shader, entries);
+        let entries = raster::MESH;
+        let pipeline = raster::pipeline(&self.gpu.device, surfaces, &self.module(shader), entries);
         let layout = pipeline.get_bind_group_layout(0);
         let bindings = resources.bind(self.gpu, shader, &entries, &layout, &[])?;
         Ok(Some((pipeline, bindings, corners.clone())))
@@ -247,7 +247,7 @@ impl<'a> Maker<'a> {
             return Ok(None);
         };
         let entries = ["analytic_vertex", "analytic_fragment"];
-        let pipeline = self.raster_pipeline(surfaces, shader, entries);
+        let pipeline = raster::pipeline(&self.gpu.device, surfaces, &self.module(shader), entries);
         let bytes = uniforms::bytes_of(uniform);
         let buffer = self.allocator.filled("analytic", &bytes, wgpu::BufferUsages::UNIFORM)?;
         let layout = pipeline.get_bind_group_layout(0);
@@ -260,107 +260,5 @@ impl<'a> Maker<'a> {
             label: None,
             source: wgpu::ShaderSource::Wgsl(shader.text.as_str().into()),
         })
-    }
-
-    fn raster_pipeline(
-        &self,
-        surfaces: &Surfaces,
-        shader: &Shader,
-        [vertex, fragment]: [&str; 2],
-    ) -> wgpu::RenderPipeline {
-        let mesh = vertex == MESH[0];
-        let module = self.module(shader);
-        let attributes = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x3, 3 => Float32, 4 => Float32];
-        let buffers = [Some(wgpu::VertexBufferLayout {
-            array_stride: size_of::<Corner>() as u64,
-            step_mode: wgpu::VertexStepMode::Vertex,
-            attributes: &attributes,
-        })];
-        let targets: Vec<_> =
-            surfaces.targets.iter().map(|t| Some(colour_state(t, surfaces.sides))).collect();
-        let options = wgpu::PipelineCompilationOptions::default;
-        self.gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some(surfaces.name),
-            layout: None,
-            vertex: wgpu::VertexState {
-                module: &module,
-                entry_point: Some(vertex),
-                compilation_options: options(),
-                buffers: if mesh { &buffers } else { &[] },
-            },
-            primitive: wgpu::PrimitiveState {
-                cull_mode: culled(surfaces.sides).filter(|_| mesh),
-                ..Default::default()
-            },
-            depth_stencil: compare(surfaces.sides).map(|compare| wgpu::DepthStencilState {
-                format: wgpu::TextureFormat::Depth32Float,
-                depth_write_enabled: Some(true),
-                depth_compare: Some(compare),
-                stencil: wgpu::StencilState::default(),
-                bias: wgpu::DepthBiasState::default(),
-            }),
-            multisample: wgpu::MultisampleState::default(),
-            fragment: Some(wgpu::FragmentState {
-                module: &module,
-                entry_point: Some(fragment),
-                compilation_options: options(),
-                targets: &targets,
-            }),
-            multiview_mask: None,
-            cache: None,
-        })
-    }
-}
-
-/// Entry points that read corners of triangles.
-const MESH: [&str; 2] = ["mesh_vertex", "mesh_fragment"];
-
-fn colour_state(target: &Target, sides: Sides) -> wgpu::ColorTargetState {
-    let write_mask = match sides {
-        Sides::All => wgpu::ColorWrites::empty(),
-        _ => wgpu::ColorWrites::ALL,
-    };
-    let add = |dst_factor| wgpu::BlendComponent {
-        src_factor: wgpu::BlendFactor::One,
-        dst_factor,
-        operation: wgpu::BlendOperation::Add,
-    };
-    let factor = match sides {
-        Sides::Sum => Some(wgpu::BlendFactor::One),
-        Sides::Over => Some(wgpu::BlendFactor::OneMinusSrcAlpha),
-        _ => None,
-    };
-    let largest = wgpu::BlendComponent {
-        src_factor: wgpu::BlendFactor::One,
-        dst_factor: wgpu::BlendFactor::One,
-        operation: wgpu::BlendOperation::Max,
-    };
-    // A mask has one channel of 32 bits and is written, not summed.
-    let factor = factor.filter(|_| target.channels > 1);
-    let blend = factor.map(|f| wgpu::BlendState { color: add(f), alpha: add(f) });
-    let blend = match sides {
-        Sides::Largest => Some(wgpu::BlendState { color: largest, alpha: largest }),
-        _ => blend,
-    };
-    wgpu::ColorTargetState { format: target.format, blend, write_mask }
-}
-
-fn culled(sides: Sides) -> Option<wgpu::Face> {
-    match sides {
-        Sides::Front => Some(wgpu::Face::Back),
-        Sides::Back { .. } => Some(wgpu::Face::Front),
-        _ => None,
-    }
-}
-
-fn compare(sides: Sides) -> Option<wgpu::CompareFunction> {
-    match sides {
-        Sides::Back { farthest: true } | Sides::Outermost => Some(wgpu::CompareFunction::Greater),
-        Sides::Front | Sides::Back { farthest: false } | Sides::Nearest => {
-            Some(wgpu::CompareFunction::Less)
-        }
-        // What lies beyond the far plane still covers the sky.
-        Sides::Opaque => Some(wgpu::CompareFunction::LessEqual),
-        _ => None,
     }
 }
