@@ -90,8 +90,10 @@ impl<'a> Costs<'a> {
         }
     }
 
-    /// The children of the wide node in place of a binary node.
-    pub(crate) fn children(&self, index: usize) -> Vec<Part> {
+    /// The children of the wide node in place of a part, nodes first. A block,
+    /// which is so only at the root, becomes a node's only child.
+    pub(crate) fn children(&self, part: Part) -> Vec<Part> {
+        let Part::Node(index) = part else { return vec![part] };
         let mut parts = Vec::with_capacity(WIDTH);
         let [left, right] = self.kids(index);
         let (_, share) = self.forest([left, right], WIDTH);
@@ -104,6 +106,7 @@ impl<'a> Costs<'a> {
                 indices.extend(more);
             }
         }
+        parts.sort_by_key(|part| matches!(part, Part::Block(_)));
         parts
     }
 

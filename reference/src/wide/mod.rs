@@ -22,7 +22,7 @@ use crate::soup::Soup;
 use crate::triangle::Triangle;
 use collapse::{Costs, Part};
 use glam::DVec3;
-use node::{Block, Child, LANES, Node, Unit};
+use node::{Block, LANES, Links, Node, Unit};
 use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
@@ -37,7 +37,6 @@ pub(crate) const MOST_TRIANGLES: usize = 1 << 28;
 pub(crate) struct Tree {
     nodes: Vec<Node>,
     blocks: Vec<Block>,
-    root: Option<Child>,
     unit: Unit,
     count: usize,
     pub(crate) instructions: Detected,
@@ -48,7 +47,6 @@ impl Default for Tree {
         Self {
             nodes: Vec::new(),
             blocks: Vec::new(),
-            root: None,
             unit: Unit::default(),
             count: 0,
             instructions: Detected::best(),
@@ -86,48 +84,30 @@ impl Tree {
         // Room that is never written to takes no memory; growing would take twice.
         self.blocks.reserve_exact(self.count / 2 + 1);
         self.nodes.reserve_exact(self.count / 8 + 1);
-        let root = costs.part(0);
-        let mut todo = Vec::new();
-        self.root = Some(match root {
-            Part::Block(indices) => self.block(&costs, indices, triangles),
-            Part::Node(index) => {
-                self.nodes.push(Node::EMPTY);
-                todo.push((index, 0));
-                Child::node(0)
-            }
-        });
-        while let Some((index, mine)) = todo.pop() {
+        self.nodes.push(Node::EMPTY);
+        let mut todo = vec![(costs.part(0), 0)];
+        while let Some((part, mine)) = todo.pop() {
             let first = todo.len();
-            for (i, part) in costs.children(index).into_iter().enumerate() {
+            let (first_node, first_block) = (self.nodes.len() as u32, self.blocks.len() as u32);
+            for (i, part) in costs.children(part).into_iter().enumerate() {
                 let bounds = costs.bounds(&part);
-                let child = match part {
-                    Part::Block(of) => self.block(&costs, of, triangles),
-                    Part::Node(of) => {
-                        self.nodes.push(Node::EMPTY);
-                        todo.push((of, self.nodes.len() - 1));
-                        Child::node(self.nodes.len() - 1)
-                    }
-                };
                 let node: &mut Node = &mut self.nodes[mine];
                 for axis in 0..3 {
                     node.planes[axis][0][i] = bounds.min[axis];
                     node.planes[axis][1][i] = bounds.max[axis];
                 }
-                node.children[i] = child;
+                match part {
+                    Part::Block(of) => self.blocks.push(block(&costs, of, triangles)),
+                    Part::Node(_) => {
+                        todo.push((part, self.nodes.len()));
+                        self.nodes.push(Node::EMPTY);
+                    }
+                }
             }
+            let nodes = self.nodes.len() as u32 - first_node;
+            self.nodes[mine].links = Links { first_node, first_block, nodes };
             todo[first..].reverse();
         }
-    }
-
-    fn block(&mut self, costs: &Costs<'_>, indices: Vec<usize>, of: &Finite<'_>) -> Child {
-        let mut block = Block::EMPTY;
-        let mut list = Vec::with_capacity(LANES);
-        costs.triangles(indices, &mut list);
-        for (lane, triangle) in list.into_iter().enumerate() {
-            block.set(lane, &of.get(triangle as usize));
-        }
-        self.blocks.push(block);
-        Child::block(self.blocks.len() - 1)
     }
 
     /// How many triangles.
@@ -176,6 +156,16 @@ impl<'a> Finite<'a> {
     fn get(&self, index: usize) -> Triangle {
         self.soup.triangle(self.kept.as_ref().map_or(index as u32, |kept| kept[index]))
     }
+}
+
+fn block(costs: &Costs<'_>, indices: Vec<usize>, of: &Finite<'_>) -> Block {
+    let mut block = Block::EMPTY;
+    let mut list = Vec::with_capacity(LANES);
+    costs.triangles(indices, &mut list);
+    for (lane, triangle) in list.into_iter().enumerate() {
+        block.set(lane, &of.get(triangle as usize));
+    }
+    block
 }
 
 /// How obvhs builds: with more care where it takes no time.

@@ -1,6 +1,5 @@
 //! What the tree is made of: nodes of eight boxes, and blocks of triangles.
 
-use super::stack::LANE;
 use crate::line::Line;
 use crate::triangle::{Passage, Triangle};
 use glam::DVec3;
@@ -17,46 +16,47 @@ pub(crate) struct Node {
     /// By axis: lower and upper planes of the children. Where there is no
     /// child the planes are swapped and infinite, so that no ray passes.
     pub(crate) planes: [[[f32; WIDTH]; 2]; 3],
-    pub(crate) children: [Child; WIDTH],
+    pub(crate) links: Links,
 }
 
 impl Node {
     pub(crate) const EMPTY: Self = Self {
         planes: [[[f32::INFINITY; WIDTH], [f32::NEG_INFINITY; WIDTH]]; 3],
-        children: [Child(0); WIDTH],
+        links: Links { first_node: 0, first_block: 0, nodes: 0 },
     };
+}
 
-    /// The child that a key is of.
+/// Where the children of a node are: first those that are nodes, then those that
+/// are blocks, each kind in a row. So what a child is and where it lies is known
+/// without another look at memory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Links {
+    pub(crate) first_node: u32,
+    pub(crate) first_block: u32,
+    /// How many children are nodes.
+    pub(crate) nodes: u32,
+}
+
+impl Links {
+    /// To the root alone.
+    pub(crate) const ROOT: Self = Self { first_node: 0, first_block: 0, nodes: 1 };
+
+    /// Index of the node that a child is, or of the block.
     #[inline(always)]
-    pub(crate) fn child(&self, key: i32) -> Child {
-        self.children[(key & LANE) as usize]
+    pub(crate) fn child(self, number: u32) -> Child {
+        if number < self.nodes {
+            Child::Node((self.first_node + number) as usize)
+        } else {
+            Child::Block((self.first_block + number - self.nodes) as usize)
+        }
     }
 }
 
-/// A node's or, with the highest bit set, a block's index.
+/// What a child is, and its index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Child(pub(crate) u32);
-
-const BLOCK: u32 = 1 << 31;
-
-impl Child {
-    pub(crate) fn node(index: usize) -> Self {
-        Self(index as u32)
-    }
-
-    pub(crate) fn block(index: usize) -> Self {
-        Self(BLOCK | index as u32)
-    }
-
-    #[inline(always)]
-    pub(crate) fn is_block(self) -> bool {
-        self.0 & BLOCK != 0
-    }
-
-    #[inline(always)]
-    pub(crate) fn index(self) -> usize {
-        (self.0 & !BLOCK) as usize
-    }
+pub(crate) enum Child {
+    Node(usize),
+    Block(usize),
 }
 
 /// Triangles of one leaf, coordinate by coordinate. Unused lanes are NaN, which

@@ -1,6 +1,6 @@
 //! Children still to visit.
 
-use super::node::WIDTH;
+use super::node::{Links, WIDTH};
 
 /// What no key is as large as.
 pub(crate) const NONE: i32 = i32::MAX;
@@ -23,11 +23,11 @@ pub(crate) fn latest(limit: f32) -> i32 {
     if limit > 0.0 { limit.to_bits() as i32 | LANE } else { LANE }
 }
 
-/// A node, and which of its children are still to visit.
+/// The children of a node, and which of them are still to visit.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Frame {
     pub(crate) keys: Keys,
-    pub(crate) node: usize,
+    pub(crate) links: Links,
 }
 
 /// Kept between rays, so that it seldom grows.
@@ -45,12 +45,12 @@ impl Stack {
 
     /// A new frame on top.
     #[inline(always)]
-    pub(crate) fn push(&mut self, node: usize) -> &mut Keys {
+    pub(crate) fn push(&mut self, links: Links) -> &mut Keys {
         if self.used == self.frames.len() {
             self.grow();
         }
         let frame = &mut self.frames[self.used];
-        frame.node = node;
+        frame.links = links;
         self.used += 1;
         &mut frame.keys
     }
@@ -67,6 +67,6 @@ impl Stack {
 
     #[cold]
     fn grow(&mut self) {
-        self.frames.resize(2 * self.used + 16, Frame { keys: Keys::NONE, node: 0 });
+        self.frames.resize(2 * self.used + 16, Frame { keys: Keys::NONE, links: Links::ROOT });
     }
 }

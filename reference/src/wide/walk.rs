@@ -7,9 +7,9 @@
 use super::Tree;
 use super::instructions::Detected;
 use super::kernel::{Job, Kernel};
-use super::node::{Block, Child, LANES};
+use super::node::{Block, Child, LANES, Links};
 use super::ray::BoxRay;
-use super::stack::{Stack, latest};
+use super::stack::{LANE, Stack, latest};
 use crate::line::Line;
 use crate::triangle::{Passage, Pierce};
 
@@ -224,9 +224,8 @@ impl<'a, K: Kernel> Walk<'a, K> {
     #[inline(always)]
     fn run(mut self, line: &Line, ray: &BoxRay, visitor: &mut impl Visitor) {
         let (kernel, lanes) = (self.kernel, &self.kernel.lanes(line));
-        let Some(mut child) = self.tree.root.filter(|_| ray.is_usable()) else { return };
-        while let Some(block) = self.down(child) {
-            let index = block.index();
+        let mut next = (!self.tree.nodes.is_empty() && ray.is_usable()).then_some((Links::ROOT, 0));
+        while let Some(index) = next.and_then(|(links, number)| self.down(links, number)) {
             let block = &self.tree.blocks[index];
             let (candidates, seen) = kernel.candidates(lanes, block);
             if candidates != 0 {
@@ -235,43 +234,50 @@ impl<'a, K: Kernel> Walk<'a, K> {
                     (self.limit, self.last) = (limit, latest(limit));
                 }
             }
-            let Some(next) = self.waiting() else { return };
-            child = next;
+            next = self.waiting();
         }
     }
 
-    /// The next block: the child, or one below it, or one that waits.
+    /// Index of the next block: a node's child, or one below it, or one that waits.
     #[inline(always)]
-    fn down(&mut self, mut child: Child) -> Option<Child> {
+    fn down(&mut self, mut links: Links, mut number: u32) -> Option<usize> {
         let (nodes, limit) = (self.tree.nodes.as_slice(), self.limit);
-        while !child.is_block() {
-            let node = &nodes[child.index()];
+        loop {
+            let node = match links.child(number) {
+                Child::Node(index) => &nodes[index],
+                Child::Block(index) => return Some(index),
+            };
             let (mask, keys) = self.kernel.meet(&self.boxes, node, limit);
-            child = if mask & mask.wrapping_sub(1) != 0 {
+            if mask & mask.wrapping_sub(1) != 0 {
                 let (key, others) = self.kernel.nearest(keys);
-                self.kernel.store(others, self.stack.push(child.index()));
-                node.child(key)
+                self.kernel.store(others, self.stack.push(node.links));
+                (links, number) = (node.links, lane(key));
             } else if mask != 0 {
                 // The only one: which it is need not wait for the keys.
-                node.child(mask.trailing_zeros() as i32)
+                (links, number) = (node.links, mask.trailing_zeros());
             } else {
-                self.waiting()?
-            };
+                (links, number) = self.waiting()?;
+            }
         }
-        Some(child)
     }
 
     /// The child to go on with that was met first.
     #[inline(always)]
-    fn waiting(&mut self) -> Option<Child> {
+    fn waiting(&mut self) -> Option<(Links, u32)> {
         loop {
             let frame = self.stack.top()?;
             let (key, others) = self.kernel.nearest(self.kernel.load(&frame.keys));
             if key <= self.last {
                 self.kernel.store(others, &mut frame.keys);
-                return Some(self.tree.nodes[frame.node].child(key));
+                return Some((frame.links, lane(key)));
             }
             self.stack.pop();
         }
     }
+}
+
+/// Which child a key is of.
+#[inline(always)]
+fn lane(key: i32) -> u32 {
+    (key & LANE) as u32
 }
