@@ -5,7 +5,7 @@
 #![allow(clippy::unwrap_used, reason = "a failing test may panic")]
 
 use glam::DVec3;
-use reference::{DEFAULT_SPLIT, Estimator, Level, Request};
+use reference::{Estimator, Level, Paths, Request};
 use scenes::environment::{LatLong, Map};
 use scenes::{Camera, Cube, Environment, LayerName, Projection, Scene, View};
 use std::sync::Arc;
@@ -38,7 +38,7 @@ fn one_ray(camera: &Camera, at: [f64; 2]) -> Camera {
 fn radiance(scene: &Scene, estimator: Estimator) -> (DVec3, DVec3) {
     let spread = match estimator {
         Estimator::Tree { .. } => LayerName::Truncated,
-        Estimator::Paths { .. } => LayerName::Variance,
+        Estimator::Paths(_) => LayerName::Variance,
     };
     let layers = vec![LayerName::Radiance, spread.clone()];
     let view = View { resolution_px: [1, 1], positions_per_axis: 1, frame: 0, layers };
@@ -60,7 +60,7 @@ fn disagreement(scene: &Scene, change: f64) -> f64 {
         let seed = 1 + i as u64;
         let (paths, variance) = radiance(
             &scene,
-            Estimator::Paths { batches: 32, samples: SAMPLES, split: DEFAULT_SPLIT, seed },
+            Estimator::Paths(Paths { batches: 32, samples: SAMPLES, seed, ..Paths::default() }),
         );
         // Of 32 batches one in ten thousand lies beyond 4.5. What none of n paths met
         // happens at most 3 times in n, and carries what is left to chance.

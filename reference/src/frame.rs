@@ -172,7 +172,7 @@ fn provenance(request: &Request) -> Provenance {
     set("positions_per_axis", request.view.positions_per_axis.to_string());
     set("frame", request.view.frame.to_string());
     let seed = match request.estimator {
-        Estimator::Paths { seed, .. } => Some(seed),
+        Estimator::Paths(paths) => Some(paths.seed),
         Estimator::Tree { .. } => None,
     };
     Provenance {

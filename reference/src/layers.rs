@@ -2,7 +2,7 @@
 
 use crate::chain::Chain;
 use crate::error::Error;
-use crate::request::{Estimator, Level, Request};
+use crate::request::{Estimator, Level, Paths, Request};
 use glam::DVec3;
 use scenes::{LayerName, Layers, Scene};
 
@@ -94,7 +94,7 @@ impl Columns {
                     3
                 }
                 LayerName::Variance => match request.estimator {
-                    Estimator::Paths { batches: 2.., .. } if request.level != Level::R0 => 3,
+                    Estimator::Paths(Paths { batches: 2.., .. }) if request.level != Level::R0 => 3,
                     _ => return Err(Error::NoVariance),
                 },
                 LayerName::Coverage

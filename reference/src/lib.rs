@@ -20,6 +20,7 @@ mod flight;
 mod frame;
 pub mod interface;
 mod job;
+mod lattice;
 mod layers;
 mod light;
 mod line;
@@ -55,7 +56,7 @@ pub use job::Watch;
 pub use layers::LAYERS;
 pub use plan::plan;
 pub use request::{
-    DEFAULT_SPLIT, EnvironmentLookup, Estimator, FEWEST_WAVELENGTHS, Fresnel, Level, Request,
+    EnvironmentLookup, Estimator, FEWEST_WAVELENGTHS, Fresnel, Level, Paths, Positions, Request,
     Restriction, Spectrum,
 };
 pub use triangles::{Hit, Triangles};

@@ -4,10 +4,11 @@
 use crate::branches::{Branch, Climb, Sum};
 use crate::flight::{Flight, Scratch};
 use crate::job::Job;
+use crate::lattice::Lattice;
 use crate::layers::Pixel;
 use crate::media::Media;
 use crate::policy::{Cut, Policy, Roulette};
-use crate::request::{Estimator, Level};
+use crate::request::{Estimator, Level, Paths, Positions};
 use crate::sampling::Points;
 use crate::spectrum::{Total, Wave};
 use glam::{DVec2, DVec3, Vec4Swizzles};
@@ -28,20 +29,16 @@ impl<M: Media> Light<'_, '_, M> {
         pixel: &mut Pixel,
     ) {
         pixel.bounces = vec![DVec3::ZERO; self.job.columns.bounces];
+        let k = self.job.request.view.positions_per_axis;
         let count = match self.job.request.estimator {
-            Estimator::Paths { batches, samples, split, seed }
-                if self.job.request.level != Level::R0 =>
-            {
-                let size = [batches, samples];
-                self.batches::<UNIFORM, LENGTHS>(corner_px, pixel, size, split, seed);
-                f64::from(batches) * f64::from(samples)
+            Estimator::Paths(paths) if self.job.request.level != Level::R0 => {
+                self.batches::<UNIFORM, LENGTHS>(corner_px, paths, pixel);
+                f64::from(paths.batches) * f64::from(paths.per_batch(k))
             }
             estimator => {
                 let cut = if let Estimator::Tree { cut } = estimator { cut } else { 0.0 };
-                let k = self.job.request.view.positions_per_axis;
                 for index in 0..k * k {
-                    let at = DVec2::new(f64::from(index % k), f64::from(index / k)) + 0.5;
-                    let at = corner_px + at / f64::from(k);
+                    let at = corner_px + cell_centre(index, k);
                     self.position::<_, UNIFORM, LENGTHS>(at, Cut(cut), pixel);
                 }
                 f64::from(k * k)
@@ -60,29 +57,34 @@ impl<M: Media> Light<'_, '_, M> {
     fn batches<const UNIFORM: bool, const LENGTHS: bool>(
         &mut self,
         corner_px: DVec2,
+        paths: Paths,
         pixel: &mut Pixel,
-        [batches, samples]: [u32; 2],
-        split: f64,
-        seed: u64,
     ) {
-        let width = f64::from(self.job.request.view.resolution_px[0]);
-        let index = (corner_px.y * width + corner_px.x) as u64;
+        let view = &self.job.request.view;
+        let k = view.positions_per_axis;
+        let index = (corner_px.y * f64::from(view.resolution_px[0]) + corner_px.x) as u64;
         // Mean and sum of squared deviations so far (Welford 1962).
         let (mut mean, mut squares) = (DVec3::ZERO, DVec3::ZERO);
-        for batch in 0..batches {
+        let per_batch = paths.per_batch(k);
+        let lattice = Lattice::new(per_batch);
+        for batch in 0..paths.batches {
             let before = pixel.radiance;
-            let points = Points::new(seed, index, batch);
-            for sample in 0..samples {
-                let at = corner_px + DVec2::from_array(points.pair(sample, 0));
-                let policy = Roulette::new(points, sample, split);
-                self.position::<_, UNIFORM, LENGTHS>(at, policy, pixel);
+            let points = Points::new(paths.seed, index, batch);
+            for path in 0..per_batch {
+                let at = match paths.positions {
+                    Positions::Random => DVec2::from_array(points.pair(path, 0)),
+                    Positions::Cells => cell_centre(path % (k * k), k),
+                    Positions::Lattice => lattice.at(path),
+                };
+                let policy = Roulette::new(points, path, paths.split);
+                self.position::<_, UNIFORM, LENGTHS>(corner_px + at, policy, pixel);
             }
-            let estimate = (pixel.radiance - before) / f64::from(samples);
+            let estimate = (pixel.radiance - before) / f64::from(per_batch);
             let step = estimate - mean;
             mean += step / f64::from(batch + 1);
             squares += step * (estimate - mean);
         }
-        let n = f64::from(batches);
+        let n = f64::from(paths.batches);
         pixel.variance = squares / (n * (n - 1.0).max(1.0));
     }
 
@@ -179,4 +181,9 @@ impl<M: Media> Light<'_, '_, M> {
         }
         sum
     }
+}
+
+/// Centre of one of the k x k cells of a pixel, from its corner.
+fn cell_centre(index: u32, k: u32) -> DVec2 {
+    (DVec2::new(f64::from(index % k), f64::from(index / k)) + 0.5) / f64::from(k)
 }

@@ -37,13 +37,14 @@ impl Policy for Cut {
     }
 }
 
-/// Follows both while both are strong, then one at random; ends absorbed paths
-/// at random. The expectation is that of following everything.
+/// Follows both continuations of an event, a weak one only by chance, and just one
+/// of them once the path itself is weak; ends absorbed paths at random. The
+/// expectation is that of following everything.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Roulette {
     points: Points,
     sample: u32,
-    /// Weight from which on both continuations are followed.
+    /// Weight from which on a continuation is strong.
     split: f64,
     /// Random numbers drawn so far.
     drawn: u32,
@@ -73,23 +74,45 @@ impl Roulette {
 }
 
 impl Policy for Roulette {
-    fn choose(&mut self, [reflected, transmitted]: [f64; 2], present: f64) -> Choice {
-        let whole = reflected + transmitted;
-        if reflected.min(transmitted) * present >= self.split {
-            return Choice { reflected, transmitted, lost: 0.0 };
+    fn choose(&mut self, weights: [f64; 2], present: f64) -> Choice {
+        let [reflected, transmitted] = if (weights[0] + weights[1]) * present >= 2.0 * self.split {
+            self.branch(weights, present)
+        } else {
+            self.one_way(weights, present)
+        };
+        Choice { reflected, transmitted, lost: 0.0 }
+    }
+}
+
+impl Roulette {
+    /// Follows the stronger continuation and, if it is strong or chance makes it
+    /// so, the weaker one. Both together keep their weight, and none is left weak.
+    fn branch(&mut self, weights: [f64; 2], present: f64) -> [f64; 2] {
+        let weak = usize::from(weights[1] < weights[0]);
+        let likely = weights[weak] * present / self.split;
+        if likely >= 1.0 {
+            return weights;
         }
+        let weight = if self.draw() < likely { self.split / present } else { 0.0 };
+        let mut chosen = [weights[0] + weights[1] - weight; 2];
+        chosen[weak] = weight;
+        chosen
+    }
+
+    /// Follows one continuation, and not even that where the path has faded.
+    fn one_way(&mut self, [reflected, transmitted]: [f64; 2], present: f64) -> [f64; 2] {
+        let whole = reflected + transmitted;
         let mut weight = whole;
         // Paths that follow one continuation keep their weight, so only
         // absorption fades them.
-        let survival = (whole * present / FADED).min(1.0);
+        let survival = (whole * present / FADED.min(0.5 * self.split)).min(1.0);
         if survival < 1.0 {
             if self.draw() >= survival {
-                return Choice { reflected: 0.0, transmitted: 0.0, lost: 0.0 };
+                return [0.0; 2];
             }
             weight /= survival;
         }
         let back = reflected > 0.0 && self.draw() * whole < reflected;
-        let [reflected, transmitted] = if back { [weight, 0.0] } else { [0.0, weight] };
-        Choice { reflected, transmitted, lost: 0.0 }
+        if back { [weight, 0.0] } else { [0.0, weight] }
     }
 }

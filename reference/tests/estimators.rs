@@ -5,7 +5,7 @@ mod common;
 
 use common::{cup, furnace, icosphere, object, torus, view};
 use glam::DVec3;
-use reference::{DEFAULT_SPLIT, Error, Estimator, Level, Request, Restriction, render};
+use reference::{Error, Estimator, Level, Paths, Positions, Request, Restriction, render};
 use scenes::environment::{LatLong, Map};
 use scenes::scene::Normals;
 use scenes::{
@@ -66,15 +66,18 @@ fn disagreement(scene: &Scene, restriction: Restriction) -> f64 {
         let tree = Request { restriction, ..ask(Estimator::Tree { cut: 1e-7 }, false) };
         let tree = render(&scene, &tree).unwrap();
         // What a path does at a split is its own affair: the mean is the same.
-        let split = [DEFAULT_SPLIT, 0.25, 1.0 / 512.0][i as usize % 3];
-        let paths = Estimator::Paths { batches: 32, samples: 256, split, seed: i.into() };
-        let paths = render(&scene, &ask(paths, true)).unwrap();
+        let split = [Paths::default().split, 0.25, 1.0 / 512.0][i as usize % 3];
+        let paths = Paths { batches: 32, samples: 256, split, seed: i.into(), ..Paths::default() };
+        let paths = render(&scene, &ask(Estimator::Paths(paths), true)).unwrap();
         let data = |r: &scenes::Rendering, name| r.layers.get(&name).unwrap().data.clone();
         let lost = data(&tree, LayerName::Truncated)[0] * 4.0;
         let (a, b) = (data(&tree, LayerName::Radiance), data(&paths, LayerName::Radiance));
         let variance = data(&paths, LayerName::Variance);
+        // What none of n paths met happens at most 3 times in n, and carries the
+        // weight below which there is chance; no light is brighter than 4.
+        let unseen = 3.0 / f64::from(32 * 256) * split * 4.0;
         for channel in 0..3 {
-            let bound = 4.5 * variance[channel].sqrt() + lost + 1e-12;
+            let bound = 4.5 * variance[channel].sqrt() + lost + unseen + 1e-12;
             worst = worst.max((a[channel] - b[channel]).abs() / bound);
         }
     }
@@ -92,6 +95,51 @@ fn tree_and_paths_agree_within_what_they_state() {
     }
 }
 
+/// Paths that start where the tree does are on the way to its mean, and random
+/// ones to that over the pixel: nine positions are not the same.
+#[test]
+fn paths_through_the_cells_of_a_pixel_estimate_the_tree_there() {
+    let (_, scene) = scenes().swap_remove(0);
+    let layers = [LayerName::Radiance, LayerName::Variance, LayerName::Samples];
+    let tree = Request::new(view(1, 3, &layers[..1]), Level::R1);
+    let tree = render(&scene, &Request { estimator: Estimator::Tree { cut: 1e-7 }, ..tree });
+    let value = |r: &scenes::Rendering, name| r.layers.get(&name).unwrap().data[0];
+    let tree = value(&tree.unwrap(), LayerName::Radiance);
+    let [in_cells, anywhere] = [Positions::Cells, Positions::Random].map(|positions| {
+        let paths = Paths { batches: 32, samples: 64, positions, seed: 5, ..Paths::default() };
+        let mut request = Request::new(view(1, 3, &layers), Level::R1);
+        request.estimator = Estimator::Paths(paths);
+        let found = render(&scene, &request).unwrap();
+        let count = if positions == Positions::Cells { 9.0 } else { 1.0 };
+        assert_eq!(value(&found, LayerName::Samples), 32.0 * 64.0 * count);
+        let error = value(&found, LayerName::Radiance) - tree;
+        error.abs() / value(&found, LayerName::Variance).sqrt()
+    });
+    assert!(in_cells < 4.5 && anywhere > 9.0, "{in_cells} {anywhere}");
+}
+
+/// Where edges cross pixels, a lattice is closer to the mean over the pixel than
+/// as many random positions.
+#[test]
+fn a_lattice_of_positions_leaves_less_error_than_random_ones() {
+    let (_, scene) = scenes().swap_remove(0);
+    let found = |estimator, k| {
+        let request = Request::new(view(64, k, &[LayerName::Radiance]), Level::R1);
+        let rendering = render(&scene, &Request { estimator, ..request }).unwrap();
+        rendering.layers.get(&LayerName::Radiance).unwrap().data.clone()
+    };
+    let mean = found(Estimator::Tree { cut: 1e-3 }, 14);
+    for samples in [5, 8, 13, 21] {
+        let error = |positions| {
+            let paths = Paths { batches: 1, samples, positions, split: 1e-3, seed: 1 };
+            let image = found(Estimator::Paths(paths), 1);
+            image.iter().zip(&mean).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
+        };
+        let (lattice, random) = (error(Positions::Lattice), error(Positions::Random));
+        assert!(lattice < 0.95 * random, "{samples}: {lattice} {random}");
+    }
+}
+
 /// The error of 16 batches is what the variance layer says: squared and divided
 /// by it, it averages 1.
 #[test]
@@ -101,13 +149,8 @@ fn the_variance_is_that_of_the_mean() {
     for i in 0..60_u32 {
         let scene = through(&scene, DVec3::new(0.01 * f64::from(i) - 0.3, 0.2, 0.0));
         let tree = render(&scene, &ask(Estimator::Tree { cut: 1e-7 }, false)).unwrap();
-        let paths = Estimator::Paths {
-            batches: 16,
-            samples: 4,
-            split: DEFAULT_SPLIT,
-            seed: 100 + u64::from(i),
-        };
-        let paths = render(&scene, &ask(paths, true)).unwrap();
+        let paths = Paths { samples: 4, seed: 100 + u64::from(i), ..Paths::default() };
+        let paths = render(&scene, &ask(Estimator::Paths(paths), true)).unwrap();
         let value = |r: &scenes::Rendering, name| r.layers.get(&name).unwrap().data[0];
         let variance = value(&paths, LayerName::Variance);
         if variance > 0.0 {
@@ -125,7 +168,7 @@ fn a_furnace_has_no_variance() {
     let scene = furnace(vec![object(Shape::Mesh(cup()), 1, Normals::Smooth)], 1.5);
     let layers = [LayerName::Radiance, LayerName::Variance, LayerName::Truncated];
     let mut request = Request::new(view(32, 1, &layers), Level::R1);
-    request.estimator = Estimator::Paths { batches: 2, samples: 4, split: DEFAULT_SPLIT, seed: 3 };
+    request.estimator = Estimator::Paths(Paths { batches: 2, samples: 4, ..Paths::default() });
     let rendering = render(&scene, &request).unwrap();
     let data = |name| &rendering.layers.get(&name).unwrap().data;
     assert!(data(LayerName::Radiance).iter().all(|v| (v - 1.0).abs() < 1e-12));

@@ -18,7 +18,7 @@ mod common;
 
 use common::{furnace, object, view};
 use glam::DVec3;
-use reference::{DEFAULT_SPLIT, EnvironmentLookup, Estimator, Level, Request, render};
+use reference::{EnvironmentLookup, Estimator, Level, Paths, Request, render};
 use scenes::environment::{LatLong, Map, Repair};
 use scenes::image::{read, read_lat_long};
 use scenes::layer::flag;
@@ -59,7 +59,7 @@ fn request(edges: u32, px: usize, layers: &[LayerName]) -> Request {
 
 fn ours(scene: &Scene, batches: u32, edges: u32) -> Rendering {
     let mut request = request(edges, SIZE_PX, &[LayerName::Radiance, LayerName::Variance]);
-    request.estimator = Estimator::Paths { batches, samples: 8, split: DEFAULT_SPLIT, seed: 1 };
+    request.estimator = Estimator::Paths(Paths { batches, samples: 8, ..Paths::default() });
     render(scene, &request).unwrap()
 }
 

@@ -9,7 +9,7 @@ mod shots;
 
 use common::{cup, furnace, icosphere, object, view};
 use glam::{DAffine3, DVec3};
-use reference::{DEFAULT_SPLIT, Estimator, Level, Request, render};
+use reference::{Estimator, Level, Paths, Request, render};
 use scenes::scene::Normals;
 use scenes::{Camera, LayerName, Projection, Scene, Shape};
 use shots::two_halves;
@@ -137,6 +137,6 @@ fn what_cannot_be_polarised_is_refused() {
     assert!(render(&scene, &request).is_err());
     request.polarised = true;
     assert!(render(&scene, &request).is_ok());
-    request.estimator = Estimator::Paths { batches: 2, samples: 2, split: DEFAULT_SPLIT, seed: 1 };
+    request.estimator = Estimator::Paths(Paths { batches: 2, samples: 2, ..Paths::default() });
     assert!(render(&scene, &request).is_err());
 }

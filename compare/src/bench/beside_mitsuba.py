@@ -5,11 +5,12 @@ and the resolution. One JSON object per line and scene goes to stdout.
 
 Mitsuba integrates paths of up to 256 segments without roulette with 64, 256 and 1,024
 samples per pixel; its time is that of the render alone, after one that compiled its
-kernels. snell follows the tree of branches at k x k positions per pixel with several
-cuts, and random paths; whichever gets there first counts. Its time is that of the whole
-process less that of one which renders one pixel. Both are user and system time of all
-threads. The truth is snell's tree at 16 x 16 positions,
-which share none with the images that are judged; whether Mitsuba agrees with it is told as
+kernels. snell follows random paths through the points of a lattice and through the centres
+of k x k cells of a pixel, and at such centres the whole tree of branches; each with more
+and more positions until the error is below the least of Mitsuba's. Whichever way gets there
+first counts, and is named. Its time is that of the whole process less that of one which
+renders one pixel. Both are user and system time of all threads. The truth is snell's tree at
+16 x 16 positions, which share none with the images that are judged; whether Mitsuba agrees with it is told as
 the difference of the means in standard errors. Left out are pixels in or beside which snell
 replaced a shading normal or caught trapped light, as in its other comparisons.
 """
@@ -23,8 +24,8 @@ import sys
 
 SAMPLES = [64, 256, 1024]
 TRUTH = (16, 1e-4)
-TREES = [(k, cut) for cut in (1e-2, 3e-3, 1e-3) for k in (1, 2, 3, 4, 5, 6, 8)]
-PATHS = [1, 2, 4, 8, 16, 32, 64, 128]
+CELLS = [1, 2, 3, 4, 5, 6, 8]
+LATTICES = [1, 2, 3, 5, 8, 13, 21, 34, 55, 89]
 REPLACED = 64  # the flag of a replaced normal
 SCENES = {
     "sphere, smooth": ("geodesic-16", "smooth"),
@@ -96,9 +97,20 @@ def tree(k, cut):
     return ("--positions", str(k), "--cut", repr(cut))
 
 
-def paths(samples, seed):
-    return ("--estimator", "paths", "--batches", "1", "--samples", str(samples), "--seed",
-            str(seed))
+def paths(seed, split, *where):
+    return ("--estimator", "paths", "--batches", "1", "--seed", str(seed), "--split", repr(split),
+            *where)
+
+
+def ways(seed):
+    """What snell does with how much effort, the least first."""
+    found = {"tree": [tree(k, 1e-2) for k in CELLS]}
+    for split in (1 / 16, 1 / 32):
+        name = f"1/{round(1 / split)}"
+        found[f"lattice {name}"] = [paths(seed, split, "--lattice", "--samples", str(n))
+                                    for n in LATTICES]
+        found[f"cells {name}"] = [paths(seed, split, "--positions", str(k)) for k in CELLS]
+    return found
 
 
 def rgb(path):
@@ -143,23 +155,28 @@ def judge(name, shape, normals, program, folder, px, repetitions):
 
     start = min(ours.run("reference", scene_file, "-o", os.path.join(folder, "one.exr"),
                          "--lat-long", "--resolution", "1x1") for _ in range(3))
+    scene = mi.load_file(os.path.join(exported, "scene.xml"), max_depth=256)
+    theirs(scene, 16, 0)
+    reached, images = {}, []
+    for samples in SAMPLES:
+        found = [theirs(scene, samples, 1 + 100 * samples + turn) for turn in range(repetitions)]
+        images = [image for image, _ in found]
+        reached[samples] = ([error(image) for image in images], [time for _, time in found])
+    least = min(min(errors) for errors, _ in reached.values())
     ladders = []
     for turn in range(repetitions):
         ladder = {}
-        efforts = [(cut, tree(k, cut)) for k, cut in TREES]
-        efforts += [("paths", paths(samples, turn)) for samples in PATHS]
-        for way, how in efforts:
-            image, seconds = ours.image(px, *how)
-            ladder.setdefault(way, []).append((error(image), max(seconds - start, 1e-3)))
+        for way, efforts in ways(turn).items():
+            points = ladder.setdefault(way, [])
+            for how in efforts:
+                image, seconds = ours.image(px, *how)
+                points.append((error(image), max(seconds - start, 1e-3)))
+                if points[-1][0] < least:
+                    break
         ladders.append(ladder)
-    scene = mi.load_file(os.path.join(exported, "scene.xml"), max_depth=256)
-    theirs(scene, 16, 0)
-    rows, images = [], []
-    for samples in SAMPLES:
-        found = [theirs(scene, samples, 1 + 100 * samples + turn) for turn in range(repetitions)]
-        images += [image for image, _ in found] if samples == SAMPLES[-1] else []
-        wanted = float(numpy.median([error(image) for image, _ in found]))
-        seconds = sorted(seconds for _, seconds in found)
+    rows = []
+    for samples, (errors, seconds) in reached.items():
+        wanted, seconds = float(numpy.median(errors)), sorted(seconds)
         needed = sorted(seconds_at(ladder, wanted) for ladder in ladders)
         rows.append({
             "samples": samples,

@@ -48,7 +48,7 @@ pub struct ToError {
     pub mitsuba_cpu_s: f64,
     /// Median time of snell to that error.
     pub snell_cpu_s: f64,
-    /// `paths`, or the cut of the tree that got there first.
+    /// Which way of snell's got there first.
     pub snell_by: String,
     /// snell's time of Mitsuba's: below 1 snell is faster.
     pub ratio: f64,
@@ -113,7 +113,7 @@ mod tests {
              \"resolution_px\": 8, \"repetitions\": 1, \"left_out\": 0.0, \
              \"mean_difference_in_se\": 0.5, \"relative_mean_difference\": 1e-5, \"rows\": \
              [{\"samples\": 64, \"rmse\": 0.1, \"mitsuba_cpu_s\": 2.0, \"snell_cpu_s\": 0.5, \
-             \"snell_by\": \"paths\", \"ratio\": 0.25, \"ratio_low\": 0.2, \"ratio_high\": 0.3}]}";
+             \"snell_by\": \"tree\", \"ratio\": 0.25, \"ratio_low\": 0.2, \"ratio_high\": 0.3}]}";
         let found = rows(&format!("{line}\n{line}\n")).unwrap();
         assert_eq!(found.len(), 2);
         assert_eq!((found[0].rows[0].samples, found[0].rows[0].ratio), (64, 0.25));

@@ -3,7 +3,7 @@
 use crate::Error;
 use clap::ValueEnum;
 use reference::{
-    DEFAULT_SPLIT, EnvironmentLookup, Estimator, Fresnel, Level, Request, Restriction, Spectrum,
+    EnvironmentLookup, Estimator, Fresnel, Level, Paths, Positions, Request, Restriction, Spectrum,
 };
 use scenes::View;
 
@@ -23,11 +23,16 @@ pub(super) struct ExactArgs {
     /// Paths: independent estimates, from which the layer `variance` is taken [default: 16]
     #[arg(long, value_name = "N")]
     batches: Option<u32>,
-    /// Paths: camera rays per pixel and batch [default: 16]
+    /// Paths: how many per pixel and batch [default: 16], or with --positions per position
+    /// [default: 1]
     #[arg(long, value_name = "N")]
     samples: Option<u32>,
-    /// Paths: weight, of 1 per camera ray, from which on both continuations of an event are
-    /// followed and not one at random; 1: never [default: 1/32]
+    /// Paths: start at the points of one lattice, the same in every pixel, and not at random: less
+    /// error for the time, best with 1, 2, 3, 5, 8, 13, 21, … samples
+    #[arg(long)]
+    lattice: bool,
+    /// Paths: weight, of 1 per camera ray, above which paths branch and below which they go one
+    /// way at random; 1: one way from the start [default: 1/32]
     #[arg(long, value_name = "WEIGHT")]
     split: Option<f64>,
     /// Paths: seed; the same seed gives the same image [default: 0]
@@ -80,7 +85,8 @@ enum LevelName {
 enum EstimatorName {
     /// Both continuations of every event, at K x K positions in each pixel
     Tree,
-    /// Unbiased random paths at random positions, with their variance
+    /// Random paths, with their variance: through random positions, and then unbiased, or through
+    /// fixed ones (--lattice, --positions)
     Paths,
 }
 
@@ -96,7 +102,7 @@ enum FresnelName {
 
 impl ExactArgs {
     /// The request for a view. `positions_given`: the user wrote how many
-    /// positions a pixel has, which random paths do not.
+    /// positions a pixel has, which random paths need not.
     pub(super) fn request(&self, view: View, positions_given: bool) -> Result<Request, Error> {
         let level = match self.level {
             LevelName::R0 => Level::R0,
@@ -119,9 +125,9 @@ impl ExactArgs {
         let paths = self.estimator == EstimatorName::Paths;
         let of_the_other = [
             ("--cut", self.cut.is_some(), paths),
-            ("--positions", positions_given, paths),
             ("--batches", self.batches.is_some(), !paths),
             ("--samples", self.samples.is_some(), !paths),
+            ("--lattice", self.lattice, !paths),
             ("--split", self.split.is_some(), !paths),
             ("--seed", self.seed.is_some(), !paths),
         ];
@@ -131,16 +137,29 @@ impl ExactArgs {
                 "{flag} means nothing to --estimator {this}\nleave it out, or write --estimator {that}"
             )));
         }
-        Ok(if paths {
-            Estimator::Paths {
-                batches: self.batches.unwrap_or(16),
-                samples: self.samples.unwrap_or(16),
-                split: self.split.unwrap_or(DEFAULT_SPLIT),
-                seed: self.seed.unwrap_or(0),
+        if !paths {
+            return Ok(Estimator::Tree { cut: self.cut.unwrap_or(1e-4) });
+        }
+        let all = Paths::default();
+        let (positions, samples) = match (self.lattice, positions_given) {
+            (true, true) => {
+                return Err(Error::Usage(
+                    "--lattice and --positions are two sets of fixed positions
+write one of them"
+                        .to_owned(),
+                ));
             }
-        } else {
-            Estimator::Tree { cut: self.cut.unwrap_or(1e-4) }
-        })
+            (true, false) => (Positions::Lattice, all.samples),
+            (false, true) => (Positions::Cells, 1),
+            (false, false) => (Positions::Random, all.samples),
+        };
+        Ok(Estimator::Paths(Paths {
+            batches: self.batches.unwrap_or(all.batches),
+            samples: self.samples.unwrap_or(samples),
+            positions,
+            split: self.split.unwrap_or(all.split),
+            seed: self.seed.unwrap_or(all.seed),
+        }))
     }
 }
 

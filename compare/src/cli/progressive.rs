@@ -5,7 +5,7 @@ use super::output::Output;
 use super::view::ImageArgs;
 use crate::Error;
 use crate::progress::Progress;
-use reference::{Estimator, Level, Request, Watch, render_watched};
+use reference::{Estimator, Level, Paths, Positions, Request, Watch, render_watched};
 use scenes::{LayerName, Rendering, Scene};
 use std::time::Instant;
 
@@ -39,11 +39,13 @@ fn tell(stage: &Request, started: Instant) {
 }
 
 fn rays_per_pixel(request: &Request) -> u64 {
+    let k = request.view.positions_per_axis;
     match request.estimator {
-        Estimator::Paths { batches, samples, .. } if request.level != Level::R0 => {
-            u64::from(batches) * u64::from(samples)
+        Estimator::Paths(paths) if request.level != Level::R0 => {
+            let cells = if paths.positions == Positions::Cells { u64::from(k).pow(2) } else { 1 };
+            u64::from(paths.batches) * u64::from(paths.samples) * cells
         }
-        _ => u64::from(request.view.positions_per_axis).pow(2),
+        _ => u64::from(k).pow(2),
     }
 }
 
@@ -54,12 +56,16 @@ fn stages(request: &Request) -> Vec<Request> {
     let mut stages = Vec::new();
     let mut rays = 1;
     while rays < whole {
-        stages.push(coarser(request, rays));
+        let stage = coarser(request, rays);
+        if stage != *request {
+            stages.push(stage);
+        }
         rays *= 4;
     }
     if let (Some(first), true) = (stages.first_mut(), can_be_random(request)) {
         // One path in place of a tree: the same image on average, much sooner.
-        first.estimator = Estimator::Paths { batches: 1, samples: 1, split: 1.0, seed: 0 };
+        first.estimator =
+            Estimator::Paths(Paths { batches: 1, samples: 1, split: 1.0, ..Paths::default() });
     }
     stages.push(request.clone());
     stages
@@ -75,16 +81,21 @@ fn can_be_random(request: &Request) -> bool {
 /// The request with `rays` per pixel, a power of four.
 fn coarser(request: &Request, rays: u64) -> Request {
     let mut coarse = request.clone();
-    match &mut coarse.estimator {
-        Estimator::Paths { batches, samples, .. } if request.level != Level::R0 => {
-            // Batches first: a variance needs two, and more are better.
-            let least = if request.view.layers.contains(&LayerName::Variance) { 2 } else { 1 };
-            *batches = (*batches).min(u32::try_from(rays).unwrap_or(u32::MAX).max(least));
-            let share = rays / u64::from(*batches);
-            *samples = (*samples).min(u32::try_from(share).unwrap_or(u32::MAX).max(1));
-        }
-        _ => coarse.view.positions_per_axis = rays.isqrt() as u32,
+    let k = (rays.isqrt() as u32).min(request.view.positions_per_axis);
+    let Estimator::Paths(paths) = &mut coarse.estimator else {
+        coarse.view.positions_per_axis = k;
+        return coarse;
+    };
+    let mut left = rays;
+    if paths.positions == Positions::Cells || request.level == Level::R0 {
+        coarse.view.positions_per_axis = k;
+        left = (rays / u64::from(k).pow(2)).max(1);
     }
+    // Batches first: a variance needs two, and more are better.
+    let least = if request.view.layers.contains(&LayerName::Variance) { 2 } else { 1 };
+    paths.batches = paths.batches.min(u32::try_from(left).unwrap_or(u32::MAX).max(least));
+    left /= u64::from(paths.batches);
+    paths.samples = paths.samples.min(u32::try_from(left).unwrap_or(u32::MAX).max(1));
     coarse
 }
 
@@ -100,13 +111,21 @@ mod tests {
 
     #[test]
     fn the_last_stage_is_what_was_asked_for_and_the_first_has_one_ray() {
-        let paths = |batches, samples| Estimator::Paths { batches, samples, split: 1.0, seed: 3 };
+        let paths =
+            |batches, samples| Estimator::Paths(Paths { batches, samples, ..Paths::default() });
+        let cells = |batches, samples| {
+            let positions = Positions::Cells;
+            Estimator::Paths(Paths { batches, samples, positions, ..Paths::default() })
+        };
         for (estimator, layers, rays) in [
             (Estimator::Tree { cut: 1e-4 }, vec![LayerName::Radiance], vec![1, 4, 16, 36]),
             (paths(16, 4), vec![LayerName::Radiance], vec![1, 4, 16, 64]),
             (paths(3, 9), vec![LayerName::Radiance], vec![1, 3, 15, 27]),
             (paths(16, 4), vec![LayerName::Variance], vec![2, 4, 16, 64]),
             (paths(1, 1), vec![LayerName::Radiance], vec![1]),
+            (cells(1, 1), vec![LayerName::Radiance], vec![1, 4, 16, 36]),
+            (cells(3, 1), vec![LayerName::Radiance], vec![1, 4, 16, 36, 108]),
+            (cells(2, 1), vec![LayerName::Variance], vec![2, 8, 32, 72]),
         ] {
             let request = request(estimator, layers);
             let stages = stages(&request);
