@@ -10,7 +10,7 @@ use std::process::{Command, Stdio};
 
 const SCRIPT: &str = include_str!("beside_mitsuba.py");
 /// Pixels of the images, each side.
-pub const MITSUBA_PX: u32 = 256;
+pub const MITSUBA_PX: u32 = 512;
 /// How often everything is measured.
 pub const MITSUBA_REPETITIONS: u32 = 3;
 
