@@ -66,7 +66,7 @@ impl<M: Media> Light<'_, '_, M> {
         // Mean and sum of squared deviations so far (Welford 1962).
         let (mut mean, mut squares) = (DVec3::ZERO, DVec3::ZERO);
         let per_batch = paths.per_batch(k);
-        let lattice = Lattice::new(per_batch);
+        let lattice = Lattice::new(per_batch * paths.batches);
         for batch in 0..paths.batches {
             let before = pixel.radiance;
             let points = Points::new(paths.seed, index, batch);
@@ -74,7 +74,7 @@ impl<M: Media> Light<'_, '_, M> {
                 let at = match paths.positions {
                     Positions::Random => DVec2::from_array(points.pair(path, 0)),
                     Positions::Cells => cell_centre(path % (k * k), k),
-                    Positions::Lattice => lattice.at(path),
+                    Positions::Lattice => lattice.at(path * paths.batches + batch),
                 };
                 let policy = Roulette::new(points, path, paths.split);
                 self.position::<_, UNIFORM, LENGTHS>(corner_px + at, policy, pixel);

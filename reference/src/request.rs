@@ -95,17 +95,17 @@ impl Default for Paths {
     }
 }
 
-/// Where in a pixel random paths start. Fixed positions are the same in every
-/// pixel and batch: the variance is then that of the paths alone.
+/// Where in a pixel random paths start.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Positions {
     /// Anywhere. Their mean is that over the pixel, without bias.
     Random,
-    /// The points of a lattice, one for each sample; numbers of Fibonacci have the
-    /// best. Where edges cross pixels they leave less error than random ones.
+    /// The points of one lattice, the same in every pixel, dealt out to the
+    /// batches in turn; as many as a number of Fibonacci lie best. Where edges
+    /// cross pixels they leave less error than random ones.
     Lattice,
-    /// The centres of the view's K x K cells, as the tree's: an estimate of the
-    /// tree's own mean.
+    /// The centres of the view's K x K cells, as the tree's, in every batch: an
+    /// estimate of the tree's own mean, and its variance.
     Cells,
 }
 
@@ -163,12 +163,12 @@ impl Paths {
 
     fn check(&self, k: u32) -> Result<(), Error> {
         let range = |name, value: String, range| Err(Error::Range { name, value, range });
-        let paths = self.per_batch(k);
+        let paths = self.per_batch(k).saturating_mul(self.batches);
         if self.batches == 0 || self.samples == 0 {
             return range("batches or samples", "0".to_owned(), "at least 1");
         }
         if paths == u32::MAX {
-            return range("paths per batch", paths.to_string(), "less than 4,294,967,295");
+            return range("paths per pixel", paths.to_string(), "less than 4,294,967,295");
         }
         if !(0.0..=1.0).contains(&self.split) {
             return range("split weight", self.split.to_string(), "0 to 1");

@@ -28,7 +28,7 @@ pub(super) struct ExactArgs {
     #[arg(long, value_name = "N")]
     samples: Option<u32>,
     /// Paths: start at the points of one lattice, the same in every pixel, and not at random: less
-    /// error for the time, best with 1, 2, 3, 5, 8, 13, 21, … samples
+    /// error for the time, least with 1, 2, 3, 5, 8, 13, 21, … paths in all
     #[arg(long)]
     lattice: bool,
     /// Paths: weight, of 1 per camera ray, above which paths branch and below which they go one
