@@ -186,6 +186,11 @@ impl Metric {
         }
     }
 
+    /// True for means of the FLIP map.
+    pub(super) const fn is_flip(self) -> bool {
+        matches!(self, Self::HdrFlip | Self::LdrFlip)
+    }
+
     /// True for what the exit layers answer, not the colours.
     #[must_use]
     pub const fn is_of_exits(self) -> bool {

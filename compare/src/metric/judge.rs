@@ -4,6 +4,7 @@ use super::judgement_error::JudgementError;
 use super::pair::{Answer, Pair, Sides, values_not_finite};
 use super::{Candidate, Mask, Measurement, Metric, Reference, Selection};
 use crate::results::{NotDone, Status};
+use rayon::prelude::*;
 
 /// Everything that was asked about a pair, answered or left out.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -35,8 +36,11 @@ pub fn judge(
     for &mask in &selection.masks {
         match pair.pixels(mask) {
             Ok(pixels) => {
-                for &metric in &selection.metrics {
-                    measure(&pair, metric, mask, pixels.as_deref(), &mut judgement);
+                for found in measure_all(&pair, mask, pixels.as_deref()) {
+                    match found {
+                        Ok(measurement) => judgement.measurements.push(measurement),
+                        Err(reason) => judgement.left_out.push(reason),
+                    }
                 }
             }
             Err(reason) => {
@@ -49,21 +53,37 @@ pub fn judge(
     Ok(judgement)
 }
 
-/// Adds the metric to the judgement, as a number or as left out.
+/// Every metric of the selection, in its order. They are measured side by side,
+/// but the FLIPs one after another: they share a map, and whoever makes it must
+/// not wait for itself.
+fn measure_all(
+    pair: &Pair,
+    mask: Mask,
+    pixels: Option<&[usize]>,
+) -> Vec<Result<Measurement, NotDone>> {
+    let one = |(place, metric): &(usize, Metric)| (*place, measure(pair, *metric, mask, pixels));
+    let all = pair.selection.metrics.iter().copied().enumerate();
+    let (flips, others): (Vec<_>, Vec<_>) = all.partition(|(_, metric)| metric.is_flip());
+    let (mut found, of_flips) = rayon::join(
+        || others.par_iter().map(one).collect::<Vec<_>>(),
+        || flips.iter().map(one).collect::<Vec<_>>(),
+    );
+    found.extend(of_flips);
+    found.sort_by_key(|(place, _)| *place);
+    found.into_iter().map(|(_, found)| found).collect()
+}
+
+/// The metric as a number, or why it is left out.
 fn measure(
     pair: &Pair,
     metric: Metric,
     mask: Mask,
     pixels: Option<&[usize]>,
-    judgement: &mut Judgement,
-) {
-    let sides = match sides(pair, metric) {
-        Ok(sides) => sides,
-        Err(reason) => {
-            let (what, reason) = (metric.name(pair.selection), reason.to_owned());
-            return judgement.left_out.push(NotDone { what, reason });
-        }
-    };
+) -> Result<Measurement, NotDone> {
+    let sides = sides(pair, metric).map_err(|reason| NotDone {
+        what: metric.name(pair.selection),
+        reason: reason.to_owned(),
+    })?;
     let mut found = Measurement {
         metric: metric.name(pair.selection),
         unit: metric.describe().unit,
@@ -87,7 +107,7 @@ fn measure(
     } else {
         fill(&mut found, pair.answer(metric, sides, pixels));
     }
-    judgement.measurements.push(found);
+    Ok(found)
 }
 
 /// The layer that a metric compares, or why the pair does not have it.

@@ -6,7 +6,7 @@ use super::sum::mean;
 use super::{Candidate, Encoding, Exposures, Mask, Metric, Reference, Selection};
 use super::{display, error, flip, pu21, relative, ssim, stack};
 use scenes::{Layer, LayerName, Layers};
-use std::cell::OnceCell;
+use std::sync::OnceLock;
 
 /// Two sides of one layer.
 #[derive(Clone, Copy)]
@@ -24,7 +24,7 @@ pub(super) struct Pair<'a> {
     /// Variance of the reference's radiance, three channels.
     pub(super) variance: Option<&'a [f64]>,
     coverage: Option<&'a [f64]>,
-    flip: OnceCell<flip::FlipMap>,
+    flip: OnceLock<flip::FlipMap>,
 }
 
 /// A value, or why there is none.
@@ -67,7 +67,7 @@ impl<'a> Pair<'a> {
             exit,
             variance: three(reference, &LayerName::Variance).map(|layer| layer.data.as_slice()),
             coverage: reference.get(&LayerName::Coverage).map(|layer| layer.data.as_slice()),
-            flip: OnceCell::new(),
+            flip: OnceLock::new(),
         })
     }
 
@@ -208,7 +208,7 @@ fn gather<'a>(values: &'a [f64], pixels: Option<&[usize]>) -> std::borrow::Cow<'
     match pixels {
         None => values.into(),
         Some(pixels) => {
-            pixels.iter().flat_map(|&pixel| values[3 * pixel..3 * pixel + 3].to_vec()).collect()
+            pixels.iter().flat_map(|&pixel| [0, 1, 2].map(|i| values[3 * pixel + i])).collect()
         }
     }
 }
