@@ -27,7 +27,7 @@ pub enum Error {
         volume_m3: f64,
     },
     /// More triangles than a tree can address.
-    #[error("the scene has {0} triangles; the reference can hold {most}", most = crate::wide::MOST_TRIANGLES)]
+    #[error("the scene has {0} triangles; the reference can hold {most}", most = crate::geometry::bvh::MOST_TRIANGLES)]
     TooManyTriangles(usize),
     /// More kinds of media than the winding counts can hold.
     #[error("the scene has {0} different pairs of medium and priority; the reference can hold 256")]

@@ -4,17 +4,17 @@
 //! pixel, the chain through its centre and the radiance over its positions ->
 //! layers.
 
-use crate::branches::Branch;
 use crate::error::Error;
-use crate::flight::{Counters, Scratch};
-use crate::job::{Job, Watch};
-use crate::layers::{Columns, Pixel};
-use crate::light::Light;
-use crate::media::{Counts, Inside, Media};
-use crate::plan::Variant;
+use crate::image::job::{Job, Watch};
+use crate::image::layers::{Columns, Pixel};
+use crate::image::pixel::Light;
+use crate::image::plan::Variant;
 use crate::request::{Estimator, Request};
-use crate::tracer::Tracer;
+use crate::transport::tracer::Tracer;
+use crate::transport::tree::Branch;
 use crate::world::World;
+use crate::world::short_way::{Counters, Scratch};
+use crate::world::winding::{Counts, Inside, Media};
 use glam::DVec2;
 use rayon::prelude::*;
 use scenes::rendering::{Pass, Provenance, Time, TimeSource};

@@ -1,7 +1,7 @@
 //! What the reference is asked for.
 
-use crate::caustic_map::CausticMap;
 use crate::error::Error;
+use crate::receiver::map::CausticMap;
 use scenes::View;
 use std::sync::Arc;
 

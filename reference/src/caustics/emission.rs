@@ -1,11 +1,11 @@
 //! Photons at their start.
 
 use crate::error::Error;
-use crate::face::Face;
-use crate::flight::{Flight, Scratch, Start};
-use crate::media::Media;
-use crate::sampling::Points;
-use crate::tracer::Tracer;
+use crate::receiver::face::Face;
+use crate::sampling::sobol::Points;
+use crate::transport::tracer::Tracer;
+use crate::world::short_way::{Flight, Scratch, Start};
+use crate::world::winding::Media;
 use glam::DVec3;
 use scenes::scene::Light;
 use scenes::{Object, Scene, Surface};

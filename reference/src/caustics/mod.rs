@@ -16,15 +16,15 @@
 mod emission;
 mod photon;
 
-use crate::caustic_map::{Balance, CausticMap};
 use crate::error::Error;
-use crate::face::Face;
-use crate::flight::Scratch;
-use crate::media::{Counts, Media};
+use crate::receiver::face::Face;
+use crate::receiver::map::{Balance, CausticMap};
 use crate::request::{Level, Request};
-use crate::sampling::Points;
-use crate::tracer::Tracer;
+use crate::sampling::sobol::Points;
+use crate::transport::tracer::Tracer;
 use crate::world::World;
+use crate::world::short_way::Scratch;
+use crate::world::winding::{Counts, Media};
 use emission::Emission;
 use glam::DVec3;
 use photon::{Deposit, Tally, photon};

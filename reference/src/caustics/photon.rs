@@ -1,14 +1,14 @@
 //! One photon's way, and where its power goes.
 
-use crate::caustic_map::Balance;
-use crate::face::Face;
-use crate::flight::{End, Flight, Scratch};
-use crate::media::Media;
-use crate::optics::{reflected, transmitted};
-use crate::sampling::Points;
-use crate::spectrum::Wave;
-use crate::tracer::Tracer;
-use crate::trapped::Memory;
+use crate::receiver::face::Face;
+use crate::receiver::map::Balance;
+use crate::sampling::sobol::Points;
+use crate::transport::media_optics::{reflected, transmitted};
+use crate::transport::restart::Memory;
+use crate::transport::spectrum::Wave;
+use crate::transport::tracer::Tracer;
+use crate::world::short_way::{End, Flight, Scratch};
+use crate::world::winding::Media;
 use glam::DVec3;
 
 /// Where photons are counted.

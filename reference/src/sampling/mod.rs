@@ -1,0 +1,4 @@
+//! Where samples lie.
+
+pub(crate) mod lattice;
+pub(crate) mod sobol;

@@ -1,0 +1,73 @@
+//! What the scene is made of, for one wavelength, and how a ray goes on
+//! after an event.
+
+use crate::optics::bend::{Bend, bend, through_gap};
+use crate::request::Fresnel;
+use crate::world::World;
+use crate::world::crossing::Departed;
+use crate::world::short_way::{Event, Flight, Indices, Start};
+use crate::world::winding::Media;
+use glam::DVec3;
+use scenes::{MediumId, Scene};
+
+/// Indices for one wavelength, and absorption.
+#[derive(Clone, Debug)]
+pub(crate) struct Optics {
+    pub(crate) indices: Indices,
+    /// Per medium, per metre.
+    pub(crate) absorption: Vec<DVec3>,
+    pub(crate) fresnel: Fresnel,
+}
+
+impl Optics {
+    pub(crate) fn new(scene: &Scene, world: &World, wavelength_um: f64, fresnel: Fresnel) -> Self {
+        let classes = world.classes.iter().map(|class| class.medium);
+        let medium: Vec<MediumId> = classes.chain([MediumId::SURROUNDINGS]).collect();
+        let eta_of = |id: &MediumId| {
+            scene.media.get(usize::from(id.0)).map_or(1.0, |medium| {
+                if medium.is_dispersive() { medium.eta_at(wavelength_um) } else { medium.eta.get() }
+            })
+        };
+        Self {
+            indices: Indices { eta: medium.iter().map(eta_of).collect(), medium },
+            absorption: scene.media.iter().map(|medium| medium.absorption_per_m).collect(),
+            fresnel,
+        }
+    }
+
+    /// What an event does to a ray of this direction.
+    pub(crate) fn bend<M: Media>(&self, direction: DVec3, event: &Event<M>) -> Bend {
+        let sides = [self.indices.eta(&event.before), self.indices.eta(&event.after)];
+        if event.gap {
+            return through_gap(direction, event.spot.normals, event.entering, sides[0]);
+        }
+        bend(direction, event.spot.normals, event.entering, sides, self.fresnel)
+    }
+
+    /// Transmittance of the pieces of a path, per channel.
+    pub(crate) fn transmittance(&self, pieces: &[(MediumId, f64)]) -> DVec3 {
+        let depth = pieces.iter().fold(DVec3::ZERO, |sum, (medium, length)| {
+            let per_m = self.absorption.get(usize::from(medium.0)).copied().unwrap_or_default();
+            // Zero times an infinite length is nothing absorbed.
+            sum + DVec3::select(per_m.cmpeq(DVec3::ZERO), DVec3::ZERO, per_m * *length)
+        });
+        DVec3::from_array((-depth).to_array().map(f64::exp))
+    }
+}
+
+/// The reflected continuation of a ray.
+pub(crate) fn reflected<M: Media>(event: &Event<M>, bend: &Bend) -> Flight<M> {
+    go_on(event, bend.reflected, event.before.clone(), !event.entering)
+}
+
+/// The transmitted continuation of a ray.
+pub(crate) fn transmitted<M: Media>(event: &Event<M>, direction: DVec3) -> Flight<M> {
+    go_on(event, direction, event.after.clone(), event.entering)
+}
+
+fn go_on<M: Media>(event: &Event<M>, direction: DVec3, media: M, inside: bool) -> Flight<M> {
+    let clear = event.single && event.spot.is_clear(direction);
+    let departed = Departed { id: event.id, inside };
+    let start = if clear { Start::Surface(departed) } else { Start::Unclear };
+    Flight { origin: event.spot.position, direction, start, media }
+}

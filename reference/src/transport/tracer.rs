@@ -1,0 +1,80 @@
+//! What every way of tracing shares: the scene, its light, and where rays start.
+
+use crate::receiver::map::CausticMap;
+use crate::request::{EnvironmentLookup, Request, Restriction};
+use crate::transport::media_optics::Optics;
+use crate::transport::spectrum::{D_LINE_UM, Wave};
+use crate::world::World;
+use crate::world::short_way::{Flight, Scratch, Start};
+use crate::world::winding::{Counts, Media};
+use glam::DVec3;
+use scenes::{Camera, Environment, Projection, Ray, Scene};
+
+/// A scene, ready to be traced for a request.
+#[derive(Debug)]
+pub(crate) struct Tracer<'a> {
+    pub(crate) scene: &'a Scene,
+    pub(crate) world: &'a World,
+    /// At the wavelength of indices: what chains follow.
+    pub(crate) d_line: Optics,
+    /// What light is made of; one where nothing disperses.
+    pub(crate) waves: Vec<Wave>,
+    pub(crate) restriction: Restriction,
+    pub(crate) lookup: EnvironmentLookup,
+    /// Winding counts at the eye, if all rays start there.
+    pub(crate) eye_counts: Option<Vec<i16>>,
+    /// Light on one of the opaque faces.
+    pub(crate) caustics: Option<&'a CausticMap>,
+}
+
+impl Tracer<'_> {
+    /// Radiance from infinity along a unit direction. With `UNIFORM` nothing is
+    /// looked up.
+    #[inline(always)]
+    pub(crate) fn environment<const UNIFORM: bool>(&self, direction: DVec3) -> DVec3 {
+        match (&self.scene.environment, self.lookup) {
+            (Environment::Uniform(radiance), _) => *radiance,
+            _ if UNIFORM => DVec3::ZERO,
+            (map, EnvironmentLookup::Cube) => map.radiance(direction),
+            (map, EnvironmentLookup::LatLong) => map.radiance_lat_long(direction),
+        }
+    }
+
+    /// A ray from the camera, which may stand inside a body.
+    pub(crate) fn launch<M: Media>(&self, ray: Ray, scratch: &mut Scratch) -> Flight<M> {
+        let [low, high] = self.world.bounds;
+        let mut media = M::outside();
+        if ray.origin.cmpge(low).all() && ray.origin.cmple(high).all() {
+            match &self.eye_counts {
+                None => media = self.world.media_at(ray.origin, scratch),
+                Some(counts) => {
+                    for (class, count) in counts.iter().enumerate() {
+                        media.set(class, *count);
+                    }
+                }
+            }
+        }
+        Flight { origin: ray.origin, direction: ray.direction, start: Start::Free, media }
+    }
+}
+
+impl<'a> Tracer<'a> {
+    /// Prepares to trace a baked scene from a camera.
+    pub(crate) fn new(
+        scene: &'a Scene,
+        world: &'a World,
+        camera: &Camera,
+        request: &'a Request,
+    ) -> Self {
+        let restriction = request.restriction;
+        let d_line = Optics::new(scene, world, D_LINE_UM, restriction.fresnel);
+        let waves = Wave::all(scene, world, request.spectrum, &restriction);
+        let eye_counts = matches!(camera.projection, Projection::Perspective { .. }).then(|| {
+            let media: Counts<256> = world.media_at(camera.eye, &mut Scratch::default());
+            (0..world.classes.len()).map(|class| media.get(class)).collect()
+        });
+        let lookup = request.environment_lookup;
+        let caustics = request.caustics.as_deref();
+        Self { scene, world, d_line, waves, restriction, lookup, eye_counts, caustics }
+    }
+}
