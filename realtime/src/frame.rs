@@ -1,17 +1,18 @@
 //! The frame, in the order in which it runs. Read this first: [`Frame::record`]
 //! is everything that happens on the GPU.
 
-use crate::backdrop::DrawnBackdrop;
-use crate::composition::Composition;
-use crate::interior::DrawnInterior;
-use crate::normals::DrawnNormals;
-use crate::peel::{Counted, Peeled};
-use crate::pipelines::{DrawnSurfaces, Maker, OverPixels};
-use crate::recorder::{Allocator, Recorder};
-use crate::resources::Resources;
-use crate::sky::upload_environment;
-use crate::viewed::{Viewed, upload_numbers};
+use crate::drawn::frame_uniforms::{Viewed, upload_numbers};
+use crate::gpu::environment_upload::upload_environment;
+use crate::gpu::recorder::{Allocator, Recorder};
+use crate::gpu::resources::Resources;
+use crate::passes::Composition;
+use crate::passes::backdrop::DrawnBackdrop;
+use crate::passes::cracks_and_air::DrawnInterior;
+use crate::passes::normal_cube::DrawnNormals;
+use crate::passes::peel::{Counted, Peeled};
+use crate::passes::pipelines::{DrawnSurfaces, Maker, OverPixels};
 use crate::{Error, Gpu};
+
 use wgpu::TextureUsages;
 
 /// Pipelines and memory of a frame, ready to run any number of times.

@@ -1,18 +1,19 @@
 //! A method's image of a scene.
 
-use crate::composition::Composition;
+use crate::composition::inputs::Order;
+use crate::composition::outputs::{BUFFERS, buffers, camera, outputs};
+use crate::drawn::frame_uniforms::Viewed;
+use crate::drawn::geometry::Geometry;
 use crate::frame::Frame;
-use crate::geometry::Geometry;
-use crate::method::{Method, Settings};
-use crate::order::Order;
-use crate::outputs::{BUFFERS, buffers, camera, outputs};
-use crate::part::{Part, TIMED, parts};
-use crate::peel::{self, LayerPart};
-use crate::recorder::{Allocator, Executed, Recorder};
+use crate::frames::{Part, TIMED, parts};
+use crate::gpu::readback;
+use crate::gpu::recorder::{Allocator, Executed, Recorder};
+use crate::methods::{Method, Settings};
+use crate::passes::Composition;
+use crate::passes::peel::{self, LayerPart};
+use crate::plan::timing::Done;
 use crate::request::{Request, Timing};
-use crate::tally::Done;
-use crate::viewed::Viewed;
-use crate::{Error, Gpu, plan, readback};
+use crate::{Error, Gpu, plan};
 use rayon::prelude::*;
 use scenes::rendering::Provenance;
 use scenes::{Camera, LayerName, Layers, Plan, Rendering, Scene};

@@ -3,7 +3,7 @@
 use super::Status;
 use super::output::Output;
 use crate::Error;
-use realtime::method::{Kind, METHODS, Method, Parameter};
+use realtime::methods::{Kind, METHODS, Method, Parameter};
 use serde::Serialize;
 
 /// List the approximations, with parameters and citations

@@ -2,7 +2,7 @@
 //! apart, and must agree for every method on every kind of body.
 
 use crate::*;
-use realtime::method::{Kind, Method};
+use realtime::methods::{Kind, Method};
 use realtime::{METHODS, Timing};
 use scenes::environment::{LatLong, Map};
 use scenes::{Cube, Mesh, Plan, Rendering};

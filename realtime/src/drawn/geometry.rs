@@ -1,0 +1,261 @@
+//! What one frame shows: the bodies, what is inside them, and what is around.
+
+use crate::Error;
+use crate::drawn::drawables::{Parts, Placed};
+use crate::drawn::uniforms::{Body, Bump, Light, MAX_BODIES, MAX_LIGHTS, Paint};
+use glam::{DVec3, Vec3};
+use scenes::scene::Normals;
+use scenes::{Object, Scene, Shape, Surface};
+
+/// Everything that is drawn, at the time of one frame.
+#[derive(Clone, Debug)]
+pub(crate) struct Geometry {
+    /// Transparent bodies.
+    pub(crate) bodies: Parts,
+    /// Their numbers, in the same order.
+    pub(crate) media: Vec<Body>,
+    /// Bump maps of the bodies, if any has one.
+    pub(crate) bumps: Option<Vec<Bump>>,
+    /// Opaque surfaces around them.
+    pub(crate) opaque: Parts,
+    /// Those of them that the cube about the middle shows: all but solids that the
+    /// middle lies in, which would hide everything else.
+    pub(crate) opaque_in_cube: Parts,
+    pub(crate) paints: Vec<Paint>,
+    pub(crate) lights: Vec<Light>,
+    /// Sheets of cracks inside the bodies, not clipped.
+    pub(crate) cracks: Parts,
+    /// Planes of air inside the bodies; their normals hold positions on the
+    /// plane, -0.5 to 0.5.
+    pub(crate) air: Parts,
+    /// Unit vector towards the light that cracks glitter in.
+    pub(crate) towards_light_ws: Vec3,
+    /// Local origin in world space, metres.
+    pub(crate) centre: DVec3,
+    /// Radius about the centre that holds every bounded object, metres.
+    pub(crate) radius_m: f64,
+    /// Corners of the bodies' bounds, world space, metres.
+    pub(crate) outlines: Vec<[DVec3; 8]>,
+    /// Middle of the bodies, local space.
+    pub(crate) middle_lc: Vec3,
+    /// Some body absorbs.
+    pub(crate) absorbs: bool,
+    /// Some body's index depends on the colour.
+    pub(crate) disperses: bool,
+    /// Bodies differ in medium or priority.
+    pub(crate) nested: bool,
+    /// Something moves or deforms from frame to frame.
+    pub(crate) changes: bool,
+    /// Some body deforms, so that distances through it change.
+    pub(crate) deforms: bool,
+}
+
+fn is_solid(object: &Object) -> bool {
+    matches!(object.surface, Surface::Dielectric { .. })
+}
+
+impl Geometry {
+    /// What a frame shows.
+    pub(crate) fn new(scene: &Scene, frame: u32) -> Result<Self, Error> {
+        let time_s = scene.time_s(frame);
+        let (solids, opaque): (Vec<&Object>, Vec<&Object>) =
+            scene.objects.iter().partition(|object| is_solid(object));
+        at_most("bodies", solids.len(), MAX_BODIES)?;
+        at_most("opaque objects", opaque.len(), MAX_BODIES)?;
+        at_most("lights", scene.lights.len(), MAX_LIGHTS)?;
+        let [low, high] = scene.bounds();
+        let bounded = low.is_finite() && high.is_finite();
+        let (centre, radius_m) = if bounded {
+            (0.5 * (low + high), 0.5 * (high - low).length())
+        } else {
+            (scene.camera.target, (scene.camera.target - scene.camera.eye).length() * 10.0)
+        };
+        let moves = |object: &&Object| object.motion.is_some() || object.deform.is_some();
+        let mut geometry = Self {
+            bodies: Parts::new(centre),
+            media: Vec::new(),
+            bumps: None,
+            opaque: Parts::new(centre),
+            opaque_in_cube: Parts::new(centre),
+            paints: Vec::new(),
+            lights: scene.lights.iter().map(|light| Light::new(light, centre)).collect(),
+            cracks: Parts::new(centre),
+            air: Parts::new(centre),
+            towards_light_ws: towards_light(scene),
+            centre,
+            radius_m: radius_m.max(f64::MIN_POSITIVE),
+            outlines: Vec::new(),
+            middle_lc: middle(&solids, time_s, centre),
+            absorbs: false,
+            disperses: false,
+            nested: false,
+            changes: scene.objects.iter().any(|object| moves(&object)),
+            deforms: solids.iter().any(|object| object.deform.is_some()),
+        };
+        let numbers = numbered(&solids);
+        geometry.nested = numbers.iter().any(|solid| *solid > 0);
+        for (object, solid) in solids.iter().zip(numbers) {
+            geometry.add_body(scene, object, solid, time_s);
+        }
+        for object in opaque {
+            geometry.add_opaque(object, time_s);
+        }
+        Ok(geometry)
+    }
+
+    fn add_body(&mut self, scene: &Scene, object: &Object, solid: u32, time_s: f64) {
+        let Some(medium) = scene.medium_of(object) else { return };
+        self.absorbs |= medium.absorbs();
+        self.media.push(Body {
+            eta: medium.eta.get() as f32,
+            solid,
+            absorption_per_m: medium.absorption_per_m.as_vec3(),
+            eta_channels: Vec3::from_array(
+                scenes::medium::RGB_WAVELENGTH_UM.map(|um| medium.eta_at(um) as f32),
+            ),
+        });
+        self.disperses |= medium.is_dispersive();
+        let number = self.media.len() as u32;
+        let shape = object.shape_at(time_s);
+        let world_from_object = object.world_from_object_at(time_s);
+        let placed = Placed { shape: &shape, world_from_object, normals: object.normals, number };
+        self.outlines.push(corners(shape.bounds()).map(|p| world_from_object.transform_point3(p)));
+        self.bodies.add(&placed, 1e4 * self.radius_m);
+        if let Some(bump) = &object.bump {
+            // The bent normal needs the unbent one beside it.
+            self.bodies.smooth = true;
+            let bumps = self.bumps.get_or_insert_with(|| vec![Bump::default(); MAX_BODIES]);
+            bumps[number as usize - 1] = Bump::new(bump, &world_from_object, self.centre);
+        }
+        self.add_inside(object, &placed);
+    }
+
+    /// Cracks and air.
+    fn add_inside(&mut self, object: &Object, body: &Placed<'_>) {
+        let bounds = body.shape.bounds();
+        let bounded = bounds.iter().all(|corner| corner.is_finite());
+        if let Some(crack) = object.crack.as_ref().filter(|_| bounded) {
+            for sheet in scenes::crack::cracks(crack, bounds) {
+                let shape = Shape::Mesh(sheet);
+                self.cracks.add(&Placed { shape: &shape, normals: Normals::Smooth, ..*body }, 0.0);
+            }
+        }
+        if let Some(air) = object.air.as_ref().filter(|_| bounded) {
+            for body_from_plane in scenes::air::air_planes(air, bounds) {
+                self.air.add_plane(&(body.world_from_object * body_from_plane), body.number);
+            }
+        }
+    }
+
+    /// Cuts the cracks' sheets where they leave their bodies, as the method's
+    /// authors propose: nothing is then left to clip while drawing. Bodies
+    /// without triangles keep theirs whole.
+    pub(crate) fn clip_cracks(&mut self, scene: &Scene, frame: u32) {
+        let time_s = scene.time_s(frame);
+        self.cracks = Parts::new(self.centre);
+        let solids = scene.objects.iter().filter(|object| is_solid(object));
+        for (object, number) in solids.zip(1..) {
+            let shape = object.shape_at(time_s);
+            let Some(crack) = &object.crack else { continue };
+            let world_from_object = object.world_from_object_at(time_s);
+            for sheet in scenes::crack::cracks(crack, shape.bounds()) {
+                let cut = match scenes::generate::triangulated(&shape) {
+                    Some(body) => scenes::crack::clipped(&sheet, &body),
+                    None => sheet,
+                };
+                let sheet = Shape::Mesh(cut);
+                let normals = Normals::Smooth;
+                self.cracks.add(&Placed { shape: &sheet, world_from_object, normals, number }, 0.0);
+            }
+        }
+    }
+
+    fn add_opaque(&mut self, object: &Object, time_s: f64) {
+        let shape = object.shape_at(time_s);
+        let world_from_object = object.world_from_object_at(time_s);
+        self.paints.push(Paint::new(&object.surface, &world_from_object, self.centre));
+        let number = self.paints.len() as u32;
+        let placed = Placed { shape: &shape, world_from_object, normals: object.normals, number };
+        self.opaque.add(&placed, 1e4 * self.radius_m);
+        let middle = self.centre + self.middle_lc.as_dvec3();
+        let at = world_from_object.inverse().transform_point3(middle);
+        let reach_m = self.radius_m / world_from_object.matrix3.col(0).length();
+        if !is_small_solid_about(&shape, at, reach_m) {
+            self.opaque_in_cube.add(&placed, 1e4 * self.radius_m);
+        }
+    }
+}
+
+fn at_most(what: &str, count: usize, most: usize) -> Result<(), Error> {
+    if count <= most {
+        return Ok(());
+    }
+    Err(Error::NotYet {
+        what: format!("a scene of {count} {what} (at most {most})"),
+        method: "any".to_owned(),
+    })
+}
+
+/// True if a point (object space) lies in a solid that is too small to be a room
+/// around everything within `reach_m`.
+fn is_small_solid_about(shape: &Shape, at: DVec3, reach_m: f64) -> bool {
+    match shape {
+        Shape::Sphere { radius_m } => at.length() < *radius_m && *radius_m < reach_m,
+        Shape::Box { half_extent_m } => {
+            at.abs().cmplt(*half_extent_m).all() && half_extent_m.min_element() < reach_m
+        }
+        Shape::Cylinder { radius_m, half_height_m } => {
+            let [low, high] = shape.bounds();
+            let inside = at.cmpgt(low).all() && at.cmplt(high).all();
+            inside && radius_m.min(*half_height_m) < reach_m
+        }
+        Shape::Mesh(_) | Shape::Slab { .. } | Shape::HalfSpace => false,
+    }
+}
+
+/// Corners of a box; not finite where it has no bounds, and then beyond no side.
+fn corners([low, high]: [DVec3; 2]) -> [DVec3; 8] {
+    std::array::from_fn(|i| {
+        let pick = |bit: usize, l: f64, h: f64| if i >> bit & 1 == 0 { l } else { h };
+        DVec3::new(pick(0, low.x, high.x), pick(1, low.y, high.y), pick(2, low.z, high.z))
+    })
+}
+
+/// Middle of the bodies' bounds; the centre if none is bounded.
+fn middle(solids: &[&Object], time_s: f64, centre: DVec3) -> Vec3 {
+    let mut bounds = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+    for object in solids {
+        let [low, high] = object.shape.bounds();
+        let at = object.world_from_object_at(time_s).transform_point3(0.5 * (low + high));
+        if at.is_finite() {
+            bounds = [bounds[0].min(at), bounds[1].max(at)];
+        }
+    }
+    let middle = 0.5 * (bounds[0] + bounds[1]);
+    if middle.is_finite() { (middle - centre).as_vec3() } else { Vec3::ZERO }
+}
+
+/// The scene's first light, or else a light from above.
+fn towards_light(scene: &Scene) -> Vec3 {
+    use scenes::scene::Light;
+    let towards = match scene.lights.first() {
+        Some(Light::Directional { direction, .. }) => -*direction,
+        Some(Light::Point { position_m, .. }) => *position_m - scene.camera.target,
+        None => DVec3::new(0.4, 0.8, 0.45),
+    };
+    towards.normalize_or(DVec3::Y).as_vec3()
+}
+
+/// Numbers by falling priority, then medium; bodies of one medium and priority
+/// are one solid.
+fn numbered(solids: &[&Object]) -> Vec<u32> {
+    let key = |object: &&Object| match object.surface {
+        Surface::Dielectric { medium, priority } => (-i64::from(priority), medium),
+        _ => (i64::MAX, scenes::MediumId::SURROUNDINGS),
+    };
+    let mut kinds: Vec<_> = solids.iter().map(key).collect();
+    kinds.sort();
+    kinds.dedup();
+    let number = |object| kinds.iter().position(|kind| *kind == key(object)).unwrap_or(0);
+    solids.iter().map(|object| number(object) as u32).collect()
+}

@@ -1,0 +1,56 @@
+//! A method from a user's own file of WGSL, without compiling anything in Rust.
+//!
+//! The file defines `fn trace(pixel: vec2i, v_ws: vec3f, surface: Surface) -> Trace`
+//! as the built-in methods do (see `shaders/shade/shade.wgsl`). It may call everything
+//! they call; what it reads, directly or not, is what will be drawn before it.
+//! The comment at its top is shown as its description.
+
+use super::{METHODS, Method, Pieces};
+use crate::Error;
+use crate::wgsl::Piece;
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::{Mutex, PoisonError};
+
+/// Files that were read, by path. A method lives as long as the program: they
+/// are few and small.
+static READ: Mutex<BTreeMap<String, &'static Method>> = Mutex::new(BTreeMap::new());
+
+/// A method that was read before, by its id.
+pub(super) fn known(id: &str) -> Option<&'static Method> {
+    let read = READ.lock().unwrap_or_else(PoisonError::into_inner);
+    read.values().find(|method| method.id == id).copied()
+}
+
+/// The method in a file.
+pub(super) fn method(path: &str) -> Result<&'static Method, Error> {
+    let mut read = READ.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(method) = read.get(path) {
+        return Ok(method);
+    }
+    let fail = |why: String| Error::MethodFile { path: path.to_owned(), why };
+    let text = std::fs::read_to_string(path).map_err(|error| fail(error.to_string()))?;
+    if !text.contains("fn trace(") {
+        let wanted = "fn trace(pixel: vec2i, v_ws: vec3f, surface: Surface) -> Trace";
+        return Err(fail(format!("it does not define `{wanted}`")));
+    }
+    let stem = Path::new(path).file_stem().and_then(|stem| stem.to_str()).unwrap_or("method");
+    let taken = METHODS.iter().map(|method| method.id).chain(read.values().map(|method| method.id));
+    if taken.into_iter().any(|id| id == stem) {
+        return Err(fail(format!("a method is called \"{stem}\" already; rename the file")));
+    }
+    let comment = text.lines().map_while(|line| line.strip_prefix("//")).map(str::trim);
+    let about = comment.collect::<Vec<_>>().join(" ");
+    let method = Box::leak(Box::new(Method {
+        id: stem.to_owned().leak(),
+        alias: "",
+        title: "a method from a file",
+        about: about.leak(),
+        bibtex: "",
+        parameters: &[],
+        traces_colours: true,
+        pieces: Pieces::Read(Piece::new(path, text)),
+    }));
+    read.insert(path.to_owned(), method);
+    Ok(method)
+}

@@ -1,0 +1,78 @@
+//! What the frames of a request did, and how long they took.
+
+use crate::gpu::recorder::Executed;
+use crate::passes::peel::{Counted, Peel};
+use scenes::rendering::{Pass, Time, TimeSource};
+
+/// Finding the distances along the normals, on the CPU.
+pub(crate) const THICKNESS: &str = "distances along normals";
+/// Name of the entry with the wall time of a frame.
+const WHOLE_FRAME: &str = "frame";
+
+/// What all frames of a request did, as the recorder and the allocator saw it.
+#[derive(Default)]
+pub(crate) struct Done {
+    pub(crate) passes: Vec<Pass>,
+    pub(crate) count: u64,
+    pub(crate) bytes: u64,
+    pub(crate) timed_frames: u64,
+    pub(crate) layers: u64,
+    pub(crate) layer_bytes: u64,
+}
+
+impl Done {
+    /// Layers per pixel that are kept, and their bytes, in the frame that keeps
+    /// the most.
+    pub(crate) fn layers(&mut self, counted: Option<Counted>, peel: Option<&Peel>) {
+        let layers = counted.map_or(0, |counted| u64::from(counted.capacity));
+        let resolution_px = peel.map_or([0; 2], |peel| peel.resolution_px);
+        let pixels: u64 = resolution_px.map(u64::from).iter().product();
+        self.layers = self.layers.max(layers);
+        self.layer_bytes = self.layer_bytes.max(8 * layers * pixels);
+    }
+
+    /// `thickness_ms`: what the CPU did before the frame, and would before every
+    /// other.
+    pub(crate) fn add(
+        &mut self,
+        label: &str,
+        executed: &[String],
+        timed: &[Executed],
+        thickness_ms: Option<f64>,
+    ) {
+        self.count += executed.len() as u64;
+        self.timed_frames += timed.len() as u64;
+        if let Some(milliseconds) = thickness_ms {
+            self.count += 1;
+            let times = vec![Time { source: TimeSource::Cpu, milliseconds }];
+            self.passes.push(Pass { name: format!("{label}{THICKNESS}"), times });
+        }
+        let passes = executed.iter().enumerate();
+        self.passes.extend(passes.map(|(index, name)| Pass {
+            name: format!("{label}{name}"),
+            times: timestamp(timed, index),
+        }));
+        if !timed.is_empty() {
+            let frame_ms = median(timed.iter().map(|frame| frame.wall_ms));
+            let milliseconds = frame_ms + thickness_ms.unwrap_or(0.0);
+            let times = vec![Time { source: TimeSource::Wall, milliseconds }];
+            self.passes.push(Pass { name: format!("{label}{WHOLE_FRAME}"), times });
+        }
+    }
+}
+
+fn timestamp(frames: &[Executed], pass: usize) -> Vec<Time> {
+    let values: Vec<f64> =
+        frames.iter().filter_map(|frame| frame.timestamp_ms.as_ref()?.get(pass).copied()).collect();
+    if values.is_empty() {
+        return Vec::new();
+    }
+    vec![Time { source: TimeSource::Timestamp, milliseconds: median(values.into_iter()) }]
+}
+
+fn median(values: impl Iterator<Item = f64>) -> f64 {
+    let mut sorted: Vec<f64> = values.collect();
+    sorted.sort_by(f64::total_cmp);
+    let middle = sorted.len() / 2;
+    if sorted.len() % 2 == 1 { sorted[middle] } else { 0.5 * (sorted[middle - 1] + sorted[middle]) }
+}

@@ -1,0 +1,5 @@
+//! WGSL put together and read back.
+
+mod shader;
+
+pub(crate) use shader::{Piece, Shader};
