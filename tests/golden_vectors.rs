@@ -5,9 +5,10 @@
 use compare::image_pair::{Image, read_image};
 use compare::metric::{
     Candidate, Exposures, Judgement, Metric, Reference, Selection, display, error, exit_angle,
-    flip, judge, pu21, relative, ssim, stack, sum,
+    flip, judge, pu21, relative, ssim, stack,
 };
 use compare::results::Status;
+use compare::support::sum;
 use scenes::{LayerName, Layers};
 use serde_json::Value;
 use sha2::{Digest, Sha256};

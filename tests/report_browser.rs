@@ -6,7 +6,7 @@
 
 mod made_up_study;
 
-use compare::report::colour_map::{exposure, ramp, show};
+use compare::report::pictures::colour_map::{exposure, ramp, show};
 use compare::report::{self};
 use half::f16;
 use made_up_study::{SIZE, ball, study};
@@ -111,7 +111,7 @@ fn the_viewer_shows_the_values_of_the_images() {
     let exits = |layers: &scenes::Layers| layers.get(&LayerName::Exit).unwrap().data.clone();
     let angles = compare::metric::exit_angle::exit_angle_map_deg(&exits(&exact), &exits(&one));
     let angle = half(angles[20 * SIZE + 96]);
-    let share = compare::report::colour_map::angle_share(angle);
+    let share = compare::report::pictures::colour_map::angle_share(angle);
     assert!(near(&found[3], ramp(share)), "angle {angle}: {seen}");
     assert!(near(&found[4], [128; 3]), "no exit is grey: {seen}");
     assert!(near(&found[5], show(at(&r, 60, 150), ev)), "left of the split is exact: {seen}");

@@ -1,8 +1,8 @@
 //! Embree on the same triangles and rays: a small program of our own, compiled
 //! when it is needed, so that nobody else needs Embree.
 
-use super::clock::Taken;
 use super::{BenchError, Input};
+use crate::support::clock::Taken;
 use std::ffi::{OsStr, OsString};
 use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};

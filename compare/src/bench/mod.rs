@@ -1,16 +1,13 @@
 //! The measured speed of the exact renderer, alone and beside other programs.
 //! Read [`measure`] first.
 
-mod clock;
 mod embree;
 mod error;
 mod footprint;
 mod input;
 mod mitsuba;
 mod speed;
-mod statistics;
 
-pub use clock::Taken;
 pub use embree::{Program, Robust, compiler};
 pub use error::BenchError;
 pub use footprint::{Footprint, footprint};
@@ -19,8 +16,9 @@ pub use mitsuba::{
     BesideMitsuba, MITSUBA_PX, MITSUBA_REPETITIONS, ToError, beside_mitsuba, python,
 };
 pub use speed::Speed;
-pub use statistics::{FEWEST, Interval, median_interval, ratio_interval};
 
+use crate::support::clock::Taken;
+use crate::support::statistics::{Interval, median_interval, ratio_interval};
 use serde::Serialize;
 use speed::{Bench, interleaved};
 use std::cell::RefCell;

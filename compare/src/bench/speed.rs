@@ -1,8 +1,8 @@
 //! How many rays a second each set of instructions traces.
 
-use super::clock::{Taken, timed};
-use super::statistics::{Interval, median_interval, ratio_interval};
 use super::{BenchError, Input};
+use crate::support::clock::{Taken, timed};
+use crate::support::statistics::{Interval, median_interval, ratio_interval};
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use reference::{Instructions, Triangles};

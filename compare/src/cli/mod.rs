@@ -1,33 +1,22 @@
 //! The command line. Each command is a file here: its arguments, whose comments
 //! are the help, and `run`, which answers on standard output.
 
-mod adapter;
-mod adapters;
-mod bench;
-mod caustics;
-mod compare;
-mod exact;
-mod export;
-mod methods;
+mod arguments;
+mod describe;
+mod judge;
 mod output;
-mod plan;
-mod progressive;
-mod realtime;
-mod reference;
-mod report;
-mod scenes;
-mod study;
-mod view;
+mod render;
+mod status;
 
 use crate::Error;
-use crate::metric::Exposures;
-use ::scenes::Scene;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use describe::{adapters, export, methods, plan, scenes};
+use judge::{bench, compare, report, study};
 use output::Output;
+use render::{caustics, realtime, reference};
+use status::{EXIT_STATUS, Status};
 use std::io::Write;
 use std::process::ExitCode;
-
-const EXIT_STATUS: &str = "Exit status: 0 done, 1 a gate failed, 2 could not run, 3 inconclusive.";
 
 /// How wrong is real-time refraction, and what does it cost?
 #[derive(Debug, Parser)]
@@ -75,14 +64,6 @@ impl Command {
     }
 }
 
-/// How a command ended, if it could run at all.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[repr(u8)]
-enum Status {
-    /// It did what it was asked.
-    Done = 0,
-}
-
 /// Runs the command line of this process.
 #[must_use]
 pub fn main() -> ExitCode {
@@ -106,24 +87,4 @@ fn parse() -> Cli {
     // What holds for every command is written once and shown in every help.
     let command = Cli::command().mut_subcommands(|command| command.after_help(EXIT_STATUS));
     Cli::from_arg_matches(&command.get_matches()).unwrap_or_else(|error| error.exit())
-}
-
-/// Reads `START,STOP,COUNT`.
-fn exposures(text: &str) -> Result<Exposures, String> {
-    let parts: Vec<&str> = text.split(',').map(str::trim).collect();
-    let [start, stop, count] = parts[..] else {
-        return Err("write START,STOP,COUNT, such as -4,2,7".to_owned());
-    };
-    let stops = |text: &str| {
-        let value = text.parse::<f64>().ok().filter(|value| value.is_finite());
-        value.ok_or_else(|| format!("`{text}` is no number of stops"))
-    };
-    let count = count.parse().ok().filter(|count| (2..=64).contains(count));
-    let count = count.ok_or("COUNT is a whole number from 2 to 64")?;
-    Ok(Exposures { start: stops(start)?, stop: stops(stop)?, count })
-}
-
-/// The scene of that name: built in, or a file.
-fn scene(name: &str) -> Result<Scene, Error> {
-    Ok(::scenes::find(name)?)
 }

@@ -3,7 +3,7 @@
 //! Every function takes interleaved values of equal length, reference first,
 //! and treats each value of each channel alike. d = candidate - reference.
 
-use super::sum::mean;
+use crate::support::sum::mean;
 
 fn differences<'a>(
     reference: &'a [f64],

@@ -1,7 +1,7 @@
 //! The angle between the directions in which light leaves a body: the error
 //! that refraction makes before any environment colours it.
 
-use super::sum::{mean, quantile};
+use crate::support::sum::{mean, quantile};
 
 /// Angle between two directions of any length, radians, 0 to π:
 /// atan2(|a x b|, a · b), which keeps its digits near 0 and π where the arc

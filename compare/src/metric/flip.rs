@@ -47,8 +47,8 @@ impl Exposures {
             .filter(|&luminance| luminance.is_finite() && luminance > 0.0)
             .collect();
         lit.sort_unstable_by(f64::total_cmp);
-        let bright = super::sum::quantile(&lit, 0.999)?;
-        let median = super::sum::quantile(&lit, 0.5)?;
+        let bright = crate::support::sum::quantile(&lit, 0.999)?;
+        let median = crate::support::sum::quantile(&lit, 0.5)?;
         let start = (ACES_AT_85_PERCENT / bright).log2().floor().clamp(-60.0, 60.0);
         let stop = (ACES_AT_85_PERCENT / median).log2().ceil();
         let stop = stop.clamp(start + 1.0, start + MOST_STOPS);

@@ -15,7 +15,6 @@ pub mod pu21;
 pub mod relative;
 pub mod ssim;
 pub mod stack;
-pub mod sum;
 
 pub use describe::{Better, Description, Metric};
 pub use flip::Exposures;

@@ -2,9 +2,9 @@
 
 use super::exit_angle::{ExitAngles, exit_angle_map_deg, summarise, unmatched_share};
 use super::judgement_error::JudgementError;
-use super::sum::mean;
 use super::{Candidate, Encoding, Exposures, Mask, Metric, Reference, Selection};
 use super::{display, error, flip, pu21, relative, ssim, stack};
+use crate::support::sum::mean;
 use scenes::{Layer, LayerName, Layers};
 use std::sync::OnceLock;
 

@@ -4,7 +4,7 @@
 //! by orders of magnitude on dark images, so none of ours is named without
 //! its ε. d = candidate - reference = t - r.
 
-use super::sum::{mean, sum};
+use crate::support::sum::{mean, sum};
 
 /// Mean of d² / (r² + ε), the form of Rousselle, Knaus & Zwicker, *Adaptive
 /// sampling and reconstruction using greedy error minimization*, ACM TOG

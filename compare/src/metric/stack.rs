@@ -6,7 +6,7 @@
 //! variance of one batch, the mean of d² - s²/K has no such bias; it can be
 //! negative, and is then reported so, with its interval.
 
-use super::sum::{mean, sum};
+use crate::support::sum::{mean, sum};
 
 /// A bias-corrected error with its uncertainty.
 #[derive(Clone, Copy, Debug, PartialEq)]

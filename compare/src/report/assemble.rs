@@ -3,8 +3,8 @@
 use super::number::{bytes, digits, duration};
 use super::numbers::{Numbers, is_better, usable};
 use super::page::{Cell, MethodView, Page, SceneView};
+use super::pictures::SceneImages;
 use super::runs::{COLUMNS, display_name, find, methods_of, styles};
-use super::scene_images::SceneImages;
 use super::{ReportError, files, scene_plots, verdict, viewer};
 use crate::metric::{Better, Mask, Metric};
 use crate::results::{REFERENCE, ResultRow, RowKind, Run, SceneEntry, Status, Study, saved_ms};

@@ -1,20 +1,12 @@
 //! The files beside the page: pictures in full size, contact sheets, plots.
 
 use super::ReportError;
-use super::page::{MethodPictures, SceneView, Shown};
-use super::picture::{Picture, contact_sheet};
+use super::page::{SceneView, Shown};
+use super::pictures::{MethodPictures, Picture, ScenePictures, contact_sheet};
 use std::path::{Path, PathBuf};
 
 /// Widest picture in the page, pixels: larger ones are shrunk there.
 const SHOWN_WIDTH_PX: usize = 320;
-
-/// Pictures of a scene in full size.
-pub(super) struct ScenePictures {
-    /// Exact.
-    pub(super) exact: Picture,
-    /// Each method's, where it has an image.
-    pub(super) methods: Vec<Option<MethodPictures<Picture>>>,
-}
 
 /// Puts small pictures into the page, and full ones, the contact sheet and the
 /// plots into files below `directory`.
@@ -54,7 +46,7 @@ pub(super) fn place(
 /// A picture as it stands in the page.
 fn shown(picture: &Picture) -> Shown {
     let small = picture.shrunk_to(SHOWN_WIDTH_PX);
-    let data_uri = format!("data:image/png;base64,{}", super::block::base64(&small.png()));
+    let data_uri = format!("data:image/png;base64,{}", super::viewer::block::base64(&small.png()));
     Shown { size_px: small.size_px, data_uri }
 }
 

@@ -2,20 +2,17 @@
 //! spreadsheet, pictures.
 
 mod assemble;
-pub mod block;
-pub mod colour_map;
 mod files;
 pub mod number;
 mod numbers;
 mod page;
-pub mod picture;
+pub mod pictures;
 pub mod plot;
 mod runs;
-mod scene_images;
 mod scene_plots;
 mod spreadsheet;
 mod verdict;
-mod viewer;
+pub mod viewer;
 
 use crate::image_pair::ImagePairError;
 use crate::results::{ResultsError, read_rows, read_study};

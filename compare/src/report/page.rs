@@ -1,6 +1,7 @@
 //! What a report shows, ready for its templates: text and numbers, no logic.
 
 use super::number;
+use super::pictures::MethodPictures;
 use crate::results::{NotDone, SceneEntry, Study};
 use askama::Template;
 use std::path::PathBuf;
@@ -67,17 +68,6 @@ pub(super) struct Shown {
     pub(super) size_px: [usize; 2],
     /// PNG as a `data:` address.
     pub(super) data_uri: String,
-}
-
-/// Pictures of one method in one scene, in some form.
-#[derive(Clone, Debug)]
-pub(super) struct MethodPictures<T> {
-    /// Radiance at the scene's exposure.
-    pub(super) image: T,
-    /// FLIP map.
-    pub(super) flip: Option<T>,
-    /// Exit-angle errors.
-    pub(super) angle: Option<T>,
 }
 
 /// One scene.
@@ -199,7 +189,7 @@ impl Page {
     /// The colours of exit-angle errors as a CSS gradient.
     pub(super) fn ramp_css(&self) -> String {
         let stops: Vec<String> = (0..=8)
-            .map(|i| super::colour_map::ramp(f64::from(i) / 8.0))
+            .map(|i| super::pictures::colour_map::ramp(f64::from(i) / 8.0))
             .map(|[r, g, b]| format!("rgb({r} {g} {b})"))
             .collect();
         format!("linear-gradient(90deg, {})", stops.join(", "))

@@ -2,7 +2,7 @@
 //! image of each scene is traced and the time scaled up.
 
 use crate::Error;
-use crate::jobs::Exact;
+use crate::study::jobs::Exact;
 use std::fmt;
 use std::time::{Duration, Instant};
 

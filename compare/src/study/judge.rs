@@ -1,12 +1,12 @@
 //! Rows of results: errors against the truth, times, and counts.
 
 use crate::Error;
-use crate::jobs::Made;
 use crate::metric::{
     Candidate, Encoding, Exposures, Judgement, Mask, Measurement, Metric, Reference, Selection,
     judge,
 };
 use crate::results::{NotDone, RESULT_SCHEMA, ResultRow, RowKind, with_all_kept};
+use crate::study::jobs::Made;
 use scenes::layer::flag;
 use scenes::rendering::{Pass, TimeSource};
 use scenes::{LayerName, Scene};

@@ -6,8 +6,9 @@
 //! Whatever is judged has been through the store's files, so a cold and a warm
 //! study give the same numbers.
 
-mod clock;
+pub mod cache;
 mod estimate;
+pub mod jobs;
 mod judge;
 mod output;
 mod scene_work;
@@ -17,9 +18,10 @@ pub use estimate::Estimate;
 pub use summary::summary;
 
 use crate::Error;
-use crate::cache::Store;
-use crate::progress::Progress;
 use crate::results::{NotDone, REFERENCE, ResultRow, STUDY_SCHEMA, Study};
+use crate::study::cache::Store;
+use crate::support::progress::Progress;
+use crate::support::utc;
 use realtime::Gpu;
 use scene_work::SceneWork;
 use scenes::Scene;
@@ -80,7 +82,7 @@ pub fn run(
     if study.runs.iter().all(|run| run.method == REFERENCE) {
         return Err(Error::NothingDone(study.left_out));
     }
-    study.finished_utc = clock::now_utc();
+    study.finished_utc = utc::now();
     study.elapsed_s = start.elapsed().as_secs_f64();
     output::write(&spec.out, &study, &rows)?;
     Ok((study, rows))

@@ -1,8 +1,9 @@
 //! The folder a study leaves behind.
 
-use crate::jobs::Made;
 use crate::results::{self, ResultRow, Study};
-use crate::{Error, file, report};
+use crate::study::jobs::Made;
+use crate::support::files;
+use crate::{Error, report};
 use scenes::{LayerName, Layers};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -14,7 +15,7 @@ pub(super) fn image_place(scene: &str, method: &str) -> PathBuf {
 
 /// Copies a stored image to its place.
 pub(super) fn copy_image(made: &Made, to: &Path) -> Result<(), Error> {
-    file::replace(to, |partial| {
+    files::replace(to, |partial| {
         fs::copy(&made.image, partial).map(|_| ()).map_err(Error::file(to, "cannot be written"))
     })
 }

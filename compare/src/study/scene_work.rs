@@ -2,10 +2,11 @@
 
 use super::judge::{Judge, times, times_with_all_kept};
 use super::{Spec, output};
-use crate::cache::Store;
-use crate::jobs::{Approximation, Exact, Made, is_disjoint};
+use crate::Error;
 use crate::results::{NotDone, REFERENCE, ResultRow, Run, SceneEntry, Study};
-use crate::{Error, file};
+use crate::study::cache::Store;
+use crate::study::jobs::{Approximation, Exact, Made, is_disjoint};
+use crate::support::files;
 use realtime::Gpu;
 use scenes::Scene;
 use std::collections::BTreeMap;
@@ -108,7 +109,7 @@ impl<'a> SceneWork<'a> {
             let job = Approximation::judged(self.scene, view, method, spec.timing_s);
             let place = output::image_place(&self.scene.name, method);
             let image = spec.out.join(&place);
-            file::make_folder_of(&image)?;
+            files::make_folder_of(&image)?;
             match job.make(gpu, &image) {
                 Ok(made) => {
                     let parameters = &made.facts.provenance.parameters;

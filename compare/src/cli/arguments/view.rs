@@ -1,0 +1,154 @@
+//! Arguments that both renderers share, and the image that comes of them.
+
+use super::values::{image_path, is_png, resolution};
+use crate::Error;
+use crate::cli::output::Output;
+use crate::cli::status::Status;
+use crate::report::pictures::Picture;
+use crate::report::pictures::colour_map;
+use crate::support::files;
+use scenes::{LayerName, Layers, Rendering, Scene, View};
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+
+/// What is rendered.
+#[derive(clap::Args, Debug)]
+#[command(next_help_heading = "View")]
+pub(in crate::cli) struct ViewArgs {
+    /// Layers to compute, separated by commas; `snell methods` lists those of each method
+    /// [default: radiance]
+    #[arg(long, value_delimiter = ',', value_name = "LAYER")]
+    layers: Vec<String>,
+    /// Width x height in pixels, such as 640x360 [default: the scene's]
+    #[arg(long, value_name = "WxH", value_parser = resolution)]
+    resolution: Option<[u32; 2]>,
+    /// K: radiance is the mean over K x K positions in each pixel [default: 4]
+    #[arg(long, value_name = "K", value_parser = clap::value_parser!(u32).range(1..=64))]
+    positions: Option<u32>,
+    /// Frame of the scene's sequence; 0 is the still
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    frame: u32,
+}
+
+/// Where the image goes.
+#[derive(clap::Args, Debug)]
+#[command(next_help_heading = "Image")]
+pub(in crate::cli) struct ImageArgs {
+    /// Image to write: .exr holds every layer, .png shows the radiance
+    #[arg(short, long, value_name = "FILE", value_parser = image_path)]
+    out: PathBuf,
+    /// Exposure of a .png in stops [default: chosen from the image]
+    #[arg(long, value_name = "STOPS", allow_negative_numbers = true)]
+    exposure: Option<f64>,
+}
+
+/// What a rendering tells about itself.
+#[derive(Serialize)]
+struct Answer<'a> {
+    image: &'a Path,
+    resolution_px: [u32; 2],
+    passes: &'a [scenes::rendering::Pass],
+    counters: &'a std::collections::BTreeMap<String, u64>,
+    provenance: &'a scenes::rendering::Provenance,
+}
+
+impl ViewArgs {
+    /// The view that is asked for.
+    pub(in crate::cli) fn view(&self, scene: &Scene) -> View {
+        let mut layers: Vec<LayerName> =
+            self.layers.iter().map(|name| LayerName::from(name.trim())).collect();
+        if layers.is_empty() {
+            layers.push(LayerName::Radiance);
+        }
+        View {
+            resolution_px: self.resolution.unwrap_or(scene.camera.resolution_px),
+            positions_per_axis: self.positions.unwrap_or(4),
+            frame: self.frame,
+            layers,
+        }
+    }
+
+    /// True if the number of positions was written and not left to the default.
+    pub(in crate::cli) fn positions_given(&self) -> bool {
+        self.positions.is_some()
+    }
+}
+
+impl ImageArgs {
+    /// The view with what the image shows among its layers.
+    pub(in crate::cli) fn shown(&self, mut view: View) -> View {
+        if is_png(&self.out) && !view.layers.contains(&LayerName::Radiance) {
+            view.layers.insert(0, LayerName::Radiance);
+        }
+        view
+    }
+
+    /// Writes the image.
+    pub(in crate::cli) fn write(&self, layers: &Layers) -> Result<(), Error> {
+        if is_png(&self.out) {
+            return self.write_png(layers);
+        }
+        files::make_folder_of(&self.out)?;
+        Ok(scenes::image::write_exr(&self.out, layers)?)
+    }
+
+    /// Writes the image and answers with what the rendering tells.
+    pub(in crate::cli) fn finish(
+        &self,
+        rendering: &Rendering,
+        output: Output,
+    ) -> Result<Status, Error> {
+        self.write(&rendering.layers)?;
+        self.answer(rendering, output)
+    }
+
+    /// Answers with what the rendering tells, once its image is written.
+    pub(in crate::cli) fn answer(
+        &self,
+        rendering: &Rendering,
+        output: Output,
+    ) -> Result<Status, Error> {
+        let answer = Answer {
+            image: &self.out,
+            resolution_px: rendering.layers.resolution_px,
+            passes: &rendering.passes,
+            counters: &rendering.counters,
+            provenance: &rendering.provenance,
+        };
+        if output.json {
+            output.object("snell.rendering/1", &answer)?;
+        } else {
+            output.line(&text(&answer))?;
+        }
+        Ok(Status::Done)
+    }
+
+    /// The radiance as the report shows it.
+    fn write_png(&self, layers: &Layers) -> Result<(), Error> {
+        let radiance = layers.get(&LayerName::Radiance).map_or(&[][..], |layer| &layer.data);
+        let ev = self.exposure.unwrap_or_else(|| colour_map::exposure(radiance));
+        let size_px = layers.resolution_px.map(|side| side as usize);
+        let png = Picture::of_radiance(radiance, size_px, ev).png();
+        files::replace(&self.out, |partial| {
+            std::fs::write(partial, png).map_err(Error::file(&self.out, "cannot be written"))
+        })
+    }
+}
+
+fn text(answer: &Answer) -> String {
+    let Answer { image, resolution_px: [width, height], passes, counters, provenance } = answer;
+    let mut lines = vec![format!(
+        "{}: {width} x {height}, {} on {}",
+        image.display(),
+        provenance.renderer,
+        provenance.adapter
+    )];
+    for pass in *passes {
+        let time = |t: &scenes::rendering::Time| format!("{:.2} ms {:?}", t.milliseconds, t.source);
+        let times: Vec<String> = pass.times.iter().map(time).collect();
+        lines.push(format!("  {}: {}", pass.name, times.join(", ").to_lowercase()));
+    }
+    let counts: Vec<String> = counters.iter().map(|(name, n)| format!("{n} {name}")).collect();
+    lines.push(format!("  {}", counts.join(", ")));
+    lines.join("\n")
+}

@@ -1,0 +1,51 @@
+//! `snell export SCENE --to FORMAT`: the same scene for another renderer.
+
+use crate::Error;
+use crate::cli::arguments::scene;
+use crate::cli::output::Output;
+use crate::cli::status::Status;
+use clap::ValueEnum;
+use scenes::export;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+/// Write a scene for another renderer: anyone's second opinion
+#[derive(clap::Args, Debug)]
+pub(in crate::cli) struct Args {
+    /// Built-in name (see `snell scenes`) or scene file
+    scene: String,
+    /// Form to write
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    to: Format,
+    /// Frame of the sequence: where what moves stands
+    #[arg(long, default_value_t = 0, value_name = "N")]
+    frame: u32,
+    /// Folder to make; it must not exist yet
+    #[arg(short, long, value_name = "DIR")]
+    out: PathBuf,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(in crate::cli) enum Format {
+    /// Mitsuba 3 XML
+    Mitsuba,
+    /// pbrt-v4
+    Pbrt,
+    /// glTF 2.0 with KHR ior, transmission, volume and dispersion
+    Gltf,
+}
+
+pub(in crate::cli) fn run(args: &Args, output: Output) -> Result<Status, Error> {
+    let format = match args.to {
+        Format::Mitsuba => export::Format::Mitsuba,
+        Format::Pbrt => export::Format::Pbrt,
+        Format::Gltf => export::Format::Gltf,
+    };
+    let main = export::write(&scene(&args.scene)?.still(args.frame), format, &args.out)?;
+    if output.json {
+        output.object("snell.export/1", &BTreeMap::from([("file", &main)]))?;
+    } else {
+        output.line(&main.display().to_string())?;
+    }
+    Ok(Status::Done)
+}

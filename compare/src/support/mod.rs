@@ -1,0 +1,8 @@
+//! What every part of the judgement stands on.
+
+pub(crate) mod clock;
+pub(crate) mod files;
+pub mod progress;
+pub mod statistics;
+pub mod sum;
+pub(crate) mod utc;
