@@ -10,8 +10,8 @@ mod clip;
 
 pub use clip::clipped;
 
+use crate::ice::pose::{centre_and_diagonal, offset, placed, rotation};
 use crate::noise::{SplitMix64, fbm};
-use crate::pose::{centre_and_diagonal, offset, placed, rotation};
 use crate::scene::Crack;
 use crate::{Mesh, normals};
 use glam::{DAffine3, DVec2, DVec3};

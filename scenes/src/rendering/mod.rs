@@ -3,6 +3,9 @@
 //! Each renderer has `render(&Scene, &Request) -> Result<Rendering, Error>`;
 //! its `Request` holds a [`View`] and what only that renderer needs.
 
+pub mod layer;
+pub mod plan;
+
 use crate::{LayerName, Layers, Plan};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;

@@ -1,6 +1,6 @@
 //! Sheets cut off exactly where they leave a body.
 
-use crate::columns::Columns;
+use crate::ice::columns::Columns;
 use crate::topology::weld;
 use crate::{Mesh, mesh::CornerNormals};
 use glam::DVec3;

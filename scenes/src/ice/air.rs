@@ -3,8 +3,8 @@
 
 use crate::Shape;
 use crate::distance::clearance_m;
+use crate::ice::pose::{centre_and_diagonal, offset, placed, rotation};
 use crate::noise::SplitMix64;
-use crate::pose::{centre_and_diagonal, offset, placed, rotation};
 use crate::scene::Air;
 use glam::{DAffine3, DVec3};
 

@@ -1,5 +1,8 @@
 //! Media: an index, how it varies with wavelength, and what it absorbs.
 
+pub mod eta;
+pub mod materials;
+
 use crate::Eta;
 use glam::DVec3;
 

@@ -1,5 +1,10 @@
 //! Triangle meshes in object space, f64.
 
+pub mod deform;
+pub mod normals;
+pub mod obj;
+pub mod topology;
+
 use glam::DVec3;
 
 /// An indexed triangle mesh, counter-clockwise seen from outside.
