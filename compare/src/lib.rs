@@ -3,6 +3,7 @@
 pub mod bench;
 pub mod cli;
 mod error;
+pub mod gate;
 pub mod image_pair;
 pub mod metric;
 pub mod report;
