@@ -27,12 +27,17 @@ pub enum Error {
         volume_m3: f64,
     },
     /// More triangles than a tree can address.
-    #[error("the scene has {0} triangles; the reference can hold {most}", most = crate::geometry::bvh::MOST_TRIANGLES)]
-    TooManyTriangles(usize),
+    #[error("the scene has {count} triangles; the reference can hold {most}")]
+    TooManyTriangles {
+        /// How many there are.
+        count: usize,
+        /// How many a tree can hold.
+        most: usize,
+    },
     /// More kinds of media than the winding counts can hold.
     #[error("the scene has {0} different pairs of medium and priority; the reference can hold 256")]
     TooManyMedia(usize),
-    /// An unknown or not yet computed layer.
+    /// A layer that is unknown, or not to be had with this request.
     #[error(
         "the reference has no layer \"{layer}\" for this scene and request\nit has {available}"
     )]
@@ -81,9 +86,6 @@ pub enum Error {
         /// What it may be.
         range: &'static str,
     },
-    /// Something in the scene that is understood and not rendered yet.
-    #[error("{0} is not rendered by the reference yet")]
-    NotYet(String),
     /// The caller asked to stop.
     #[error("stopped before the image was finished")]
     Cancelled,

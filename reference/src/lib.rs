@@ -21,12 +21,12 @@ pub use caustics::{CausticsRequest, caustics};
 pub use error::Error;
 pub use frame::{render, render_watched};
 pub use geometry::bvh::{Hit, Instructions, Triangles};
-pub use image::job::Watch;
 pub use image::layers::LAYERS;
 pub use image::plan::plan;
+pub use image::run::Watch;
 pub use optics::interface;
 pub use receiver::map::{Balance, CausticMap};
 pub use request::{
-    EnvironmentLookup, Estimator, FEWEST_WAVELENGTHS, Fresnel, Level, Paths, Positions, Request,
-    Restriction, Spectrum,
+    EnvironmentLookup, Estimator, FEWEST_WAVELENGTHS, Fresnel, Keep, Level, Paths, Positions,
+    Request, Restriction, Spectrum,
 };

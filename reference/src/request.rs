@@ -27,9 +27,18 @@ pub struct Request {
     /// Light on a receiver, straight and through glass, in place of the direct
     /// light that shades it otherwise. For [`Level::R2`].
     pub caustics: Option<Arc<CausticMap>>,
-    /// Do not specialise the tracer to the scene. For tests: the image is the
-    /// same, bit by bit.
-    pub general: bool,
+    /// Whether the tracer is specialised to the scene.
+    pub keep: Keep,
+}
+
+/// What of the tracer is compiled in. The image is the same, bit by bit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Keep {
+    /// What the scene and the request need.
+    #[default]
+    Needed,
+    /// Everything: for tests of what is left out otherwise.
+    Everything,
 }
 
 /// Which light arrives.
@@ -220,7 +229,7 @@ impl Request {
             polarised: false,
             spectrum: Spectrum::Channels,
             caustics: None,
-            general: false,
+            keep: Keep::Needed,
         }
     }
 }

@@ -5,7 +5,7 @@ mod common;
 
 use common::{cup, furnace, icosphere, object, torus, view};
 use glam::{DAffine3, DVec3};
-use reference::{Level, Request, plan, render};
+use reference::{Keep, Level, Request, plan, render};
 use scenes::environment::{LatLong, Map};
 use scenes::scene::Normals;
 use scenes::{Cube, Environment, LayerName, Medium, MediumId, Scene, Shape, Surface};
@@ -51,7 +51,7 @@ fn request() -> Request {
 fn agrees(scene: &Scene, feature: &str) {
     for level in [Level::R0, Level::R1] {
         let special = Request { level, ..request() };
-        let general = Request { general: true, ..special.clone() };
+        let general = Request { keep: Keep::Everything, ..special.clone() };
         let plan = plan(scene, &special).unwrap();
         let said = |plan: &scenes::Plan| {
             plan.left_out.iter().any(|left| left.what == feature || left.reason.contains(feature))

@@ -33,4 +33,4 @@ pub use rendering::layer::{Layer, LayerName, Layers};
 
 pub use rendering::{Rendering, View, layer, plan, plan::Plan};
 pub use scene::{Object, Scene, Surface};
-pub use shape::Shape;
+pub use shape::{Shape, box_corners};

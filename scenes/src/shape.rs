@@ -35,6 +35,16 @@ pub enum Shape {
     },
 }
 
+/// The eight corners of a box given by its lowest and its highest one; bit k of a
+/// corner's number says which of the two gives its coordinate k.
+#[must_use]
+pub fn box_corners([low, high]: [DVec3; 2]) -> [DVec3; 8] {
+    std::array::from_fn(|corner| {
+        let pick = |axis: usize| if corner >> axis & 1 == 0 { low[axis] } else { high[axis] };
+        DVec3::new(pick(0), pick(1), pick(2))
+    })
+}
+
 impl Shape {
     /// Corners of the bounding box in object space; infinite for unbounded shapes.
     #[must_use]

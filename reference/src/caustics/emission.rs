@@ -4,16 +4,17 @@ use crate::error::Error;
 use crate::receiver::face::Face;
 use crate::sampling::sobol::Points;
 use crate::transport::tracer::Tracer;
-use crate::world::short_way::{Flight, Scratch, Start};
-use crate::world::winding::Media;
+use crate::world::flight::{Flight, Start};
+use crate::world::scratch::Scratch;
+use crate::world::winding::Winding;
 use glam::DVec3;
 use scenes::scene::Light;
-use scenes::{Object, Scene, Surface};
+use scenes::{Object, Scene, Surface, box_corners};
 use std::f64::consts::TAU;
 
 /// A ball that photons are sent to, and one around everything.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Sphere {
+pub(super) struct Aim {
     centre_ws: DVec3,
     radius_m: f64,
     /// About the same centre.
@@ -21,11 +22,11 @@ pub(super) struct Sphere {
 }
 
 /// Photons of one light.
-pub(super) struct Emission<M> {
+pub(super) struct Emission<W> {
     kind: Kind,
     /// Of all its photons that are sent.
     pub(super) power: DVec3,
-    media: M,
+    winding: W,
 }
 
 enum Kind {
@@ -48,15 +49,12 @@ pub(super) fn must_be_bounded(scene: &Scene) -> Result<(), Error> {
 }
 
 /// The ball around the receiver's face and all glass.
-pub(super) fn target(scene: &Scene, face: &Face, frame: u32) -> Sphere {
+pub(super) fn target(scene: &Scene, face: &Face, frame: u32) -> Aim {
     let time_s = scene.time_s(frame);
     let corners = |object: &Object| {
-        let [low, high] = object.shape_at(time_s).bounds();
-        let place = object.world_from_object_at(time_s);
-        (0..8).map(move |n| {
-            let pick = |axis: usize| if n >> axis & 1 == 0 { low[axis] } else { high[axis] };
-            place.transform_point3(DVec3::new(pick(0), pick(1), pick(2)))
-        })
+        let world_from_object = object.world_from_object_at(time_s);
+        let corners = box_corners(object.shape_at(time_s).bounds());
+        corners.map(|corner| world_from_object.transform_point3(corner))
     };
     let is_glass = |object: &&Object| matches!(object.surface, Surface::Dielectric { .. });
     let glass = scene.objects.iter().filter(is_glass).flat_map(corners);
@@ -67,12 +65,12 @@ pub(super) fn target(scene: &Scene, face: &Face, frame: u32) -> Sphere {
     let furthest = |radius: f64, p: DVec3| radius.max(p.distance(centre_ws));
     let radius_m = wanted.into_iter().fold(0.0, furthest) * (1.0 + 1e-9);
     let everything = scene.objects.iter().flat_map(corners).filter(|p| p.is_finite());
-    Sphere { centre_ws, radius_m, all_m: everything.fold(radius_m, furthest) }
+    Aim { centre_ws, radius_m, all_m: everything.fold(radius_m, furthest) }
 }
 
-impl<M: Media> Emission<M> {
-    pub(super) fn new(light: &Light, sphere: &Sphere, tracer: &Tracer<'_>) -> Self {
-        let Sphere { centre_ws, radius_m, all_m } = *sphere;
+impl<W: Winding> Emission<W> {
+    pub(super) fn new(light: &Light, aim: &Aim, tracer: &Tracer<'_>) -> Self {
+        let Aim { centre_ws, radius_m, all_m } = *aim;
         match *light {
             Light::Point { position_m, intensity } => {
                 let to = centre_ws - position_m;
@@ -84,7 +82,7 @@ impl<M: Media> Emission<M> {
                 Self {
                     kind: Kind::Cone { from_ws: position_m, axis, one_minus_cos },
                     power: intensity * TAU * one_minus_cos,
-                    media: tracer.world.media_at(position_m, &mut Scratch::default()),
+                    winding: tracer.world.winding_at(position_m, &mut Scratch::default()),
                 }
             }
             Light::Directional { direction, irradiance } => Self {
@@ -94,13 +92,13 @@ impl<M: Media> Emission<M> {
                     radius_m,
                 },
                 power: irradiance * (0.5 * TAU * radius_m * radius_m),
-                media: M::outside(),
+                winding: W::outside(),
             },
         }
     }
 
     /// A photon; the first pair of random numbers is its place.
-    pub(super) fn start(&self, points: &Points, sample: u32) -> Flight<M> {
+    pub(super) fn start(&self, points: &Points, sample: u32) -> Flight<W> {
         let [a, b] = points.pair(sample, 0);
         let (sin_phi, cos_phi) = (TAU * b).sin_cos();
         let (origin, direction) = match self.kind {
@@ -117,6 +115,6 @@ impl<M: Media> Emission<M> {
                 (centre_ws + (x * cos_phi + y * sin_phi) * radius, direction)
             }
         };
-        Flight { origin, direction, start: Start::Free, media: self.media.clone() }
+        Flight { origin, direction, start: Start::Free, winding: self.winding.clone() }
     }
 }

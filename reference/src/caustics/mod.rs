@@ -1,7 +1,7 @@
 //! Caustics: the light that lights send to a receiver, straight and through
 //! glass, by following photons from the lights.
 //!
-//! A photon starts at a light, towards a sphere around the receiver and all
+//! A photon starts at a light, towards a ball around the receiver and all
 //! glass. At every interface it is reflected or transmitted at random, by
 //! Fresnel's equations, and loses what media absorb; on an opaque surface it
 //! ends. Those that end on the receiver's face are counted in bins. So a map
@@ -19,12 +19,13 @@ mod photon;
 use crate::error::Error;
 use crate::receiver::face::Face;
 use crate::receiver::map::{Balance, CausticMap};
-use crate::request::{Level, Request};
+use crate::request::{Keep, Level, Request};
 use crate::sampling::sobol::Points;
 use crate::transport::tracer::Tracer;
+use crate::transport::variant::{Specialised, Variant};
 use crate::world::World;
-use crate::world::short_way::Scratch;
-use crate::world::winding::{Counts, Media};
+use crate::world::scratch::Scratch;
+use crate::world::winding::Winding;
 use emission::Emission;
 use glam::DVec3;
 use photon::{Deposit, Tally, photon};
@@ -71,12 +72,8 @@ pub fn caustics(scene: &Scene, request: &CausticsRequest) -> Result<CausticMap, 
     let view = View { resolution_px: [1, 1], positions_per_axis: 1, frame: 0, layers: vec![] };
     let plain = Request::new(view, Level::R2);
     let tracer = Tracer::new(scene, &world, &camera, &plain);
-    let job = Job { scene, request, tracer: &tracer, face };
-    Ok(match world.classes.len() {
-        0 | 1 => job.map::<Counts<1>>(),
-        2..=4 => job.map::<Counts<4>>(),
-        _ => job.map::<Counts<256>>(),
-    })
+    let run = PhotonRun { scene, request, tracer: &tracer, face };
+    Ok(Variant::new(scene, &world, Keep::Needed, false).run(&run))
 }
 
 fn check(scene: &Scene, request: &CausticsRequest) -> Result<Face, Error> {
@@ -101,23 +98,63 @@ fn check(scene: &Scene, request: &CausticsRequest) -> Result<Face, Error> {
     Face::of(scene, request.receiver, request.frame)
 }
 
-struct Job<'a> {
+struct PhotonRun<'a> {
     scene: &'a Scene,
     request: &'a CausticsRequest,
     tracer: &'a Tracer<'a>,
     face: Face,
 }
 
-impl Job<'_> {
-    fn map<M: Media + Send + Sync>(&self) -> CausticMap {
+impl Specialised for &PhotonRun<'_> {
+    type Output = CausticMap;
+
+    fn run<W, const UNIFORM: bool, const LENGTHS: bool>(self) -> CausticMap
+    where
+        W: Winding + Send + Sync,
+    {
+        self.map::<W, LENGTHS>()
+    }
+}
+
+/// Irradiance per bin over batches: mean and sum of squared deviations so far
+/// (Welford 1962).
+struct Estimates {
+    mean: Vec<DVec3>,
+    squares: Vec<DVec3>,
+}
+
+impl Estimates {
+    fn new(bins: usize) -> Self {
+        Self { mean: vec![DVec3::ZERO; bins], squares: vec![DVec3::ZERO; bins] }
+    }
+
+    /// Adds a batch; `number`: from 0.
+    fn add(&mut self, number: u32, estimate: &[DVec3]) {
+        for ((mean, squares), estimate) in self.mean.iter_mut().zip(&mut self.squares).zip(estimate)
+        {
+            let step = *estimate - *mean;
+            *mean += step / f64::from(number + 1);
+            *squares += step * (*estimate - *mean);
+        }
+    }
+
+    /// The mean and its variance.
+    fn of_mean(self, batches: u32) -> (Vec<DVec3>, Vec<DVec3>) {
+        let n = f64::from(batches);
+        (self.mean, self.squares.into_iter().map(|sum| sum / (n * (n - 1.0))).collect())
+    }
+}
+
+impl PhotonRun<'_> {
+    fn map<W: Winding + Send + Sync, const LENGTHS: bool>(&self) -> CausticMap {
         let [columns, rows] = self.request.size_bins;
         let bins = columns as usize * rows as usize;
-        let (mut mean, mut squares) = (vec![DVec3::ZERO; bins], vec![DVec3::ZERO; bins]);
+        let mut estimates = Estimates::new(bins);
         let mut balance = Balance::default();
-        let sphere = emission::target(self.scene, &self.face, self.request.frame);
+        let aim = emission::target(self.scene, &self.face, self.request.frame);
         let lights = &self.scene.lights;
-        let emissions: Vec<Emission<M>> =
-            lights.iter().map(|light| Emission::new(light, &sphere, self.tracer)).collect();
+        let emissions: Vec<Emission<W>> =
+            lights.iter().map(|light| Emission::new(light, &aim, self.tracer)).collect();
         let batches = self.request.batches;
         let per_batch = self.request.photons / u64::from(batches);
         let per_m2 = 1.0 / self.face.area_m2() * f64::from(columns) * f64::from(rows);
@@ -125,7 +162,8 @@ impl Job<'_> {
             let mut estimate = vec![DVec3::ZERO; bins];
             for (index, emission) in emissions.iter().enumerate() {
                 let mut power = vec![DVec3::ZERO; bins];
-                let tally = self.batch(emission, [batch, index as u32], per_batch, &mut power);
+                let numbers = [batch, index as u32];
+                let tally = self.batch::<W, LENGTHS>(emission, numbers, per_batch, &mut power);
                 // Photons are counted in units of one photon's power.
                 let unit = emission.power / per_batch as f64;
                 tally.add_to(&mut balance, unit / f64::from(batches));
@@ -133,24 +171,17 @@ impl Job<'_> {
                     *sum += *power * unit * per_m2;
                 }
             }
-            // Mean and sum of squared deviations so far (Welford 1962).
-            for ((mean, squares), estimate) in mean.iter_mut().zip(&mut squares).zip(&estimate) {
-                let step = *estimate - *mean;
-                *mean += step / f64::from(batch + 1);
-                *squares += step * (*estimate - *mean);
-            }
+            estimates.add(batch, &estimate);
         }
-        let n = f64::from(batches);
-        let variance = squares.into_iter().map(|sum| sum / (n * (n - 1.0))).collect();
+        let (irradiance, variance) = estimates.of_mean(batches);
         let (receiver, size_bins) = (self.request.receiver, [columns, rows]);
-        let face = self.face;
-        CausticMap { receiver, size_bins, irradiance: mean, variance, balance, face }
+        CausticMap { receiver, size_bins, irradiance, variance, balance, face: self.face }
     }
 
     /// The photons of one light in one batch.
-    fn batch<M: Media + Send + Sync>(
+    fn batch<W: Winding + Send + Sync, const LENGTHS: bool>(
         &self,
-        emission: &Emission<M>,
+        emission: &Emission<W>,
         [batch, light]: [u32; 2],
         count: u64,
         power: &mut [DVec3],
@@ -161,7 +192,9 @@ impl Job<'_> {
         while first < count {
             let end = count.min(first + CHUNK * CHUNKS);
             let chunks: Vec<u64> = (first..end).step_by(CHUNK as usize).collect();
-            let work = |start: &u64| self.chunk(emission, &points, *start..end.min(start + CHUNK));
+            let work = |start: &u64| {
+                self.chunk::<W, LENGTHS>(emission, &points, *start..end.min(start + CHUNK))
+            };
             // In order, so that sums do not depend on who finished first.
             let done: Vec<(Vec<Deposit>, Tally)> = chunks.par_iter().map(work).collect();
             for (deposits, part) in done {
@@ -174,9 +207,9 @@ impl Job<'_> {
     }
 
     /// Some photons of a light, in order.
-    fn chunk<M: Media>(
+    fn chunk<W: Winding, const LENGTHS: bool>(
         &self,
-        emission: &Emission<M>,
+        emission: &Emission<W>,
         points: &Points,
         photons: Range<u64>,
     ) -> (Vec<Deposit>, Tally) {
@@ -190,7 +223,7 @@ impl Job<'_> {
         for sample in photons {
             let flight = emission.start(points, sample as u32);
             let draws = photon::Draws::new(*points, sample as u32);
-            let one = photon(self.tracer, &target, flight, draws, &mut scratch);
+            let one = photon::<W, LENGTHS>(self.tracer, &target, flight, draws, &mut scratch);
             tally.count(&one, &mut deposits);
         }
         (deposits, tally)

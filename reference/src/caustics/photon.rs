@@ -3,12 +3,13 @@
 use crate::receiver::face::Face;
 use crate::receiver::map::Balance;
 use crate::sampling::sobol::Points;
-use crate::transport::media_optics::{reflected, transmitted};
-use crate::transport::restart::Memory;
-use crate::transport::spectrum::Wave;
+use crate::transport::media_optics::{MediaOptics, Side};
+use crate::transport::path::{Met, Path};
 use crate::transport::tracer::Tracer;
-use crate::world::short_way::{End, Flight, Scratch};
-use crate::world::winding::Media;
+use crate::world::crossing::Crossing;
+use crate::world::flight::Flight;
+use crate::world::scratch::Scratch;
+use crate::world::winding::Winding;
 use glam::DVec3;
 
 /// Where photons are counted.
@@ -56,10 +57,10 @@ pub(super) struct Fate {
     mask: DVec3,
     /// What media have left of it.
     tint: DVec3,
-    place: Place,
+    ending: Ending,
 }
 
-enum Place {
+enum Ending {
     Bin(u32),
     Surface,
     Environment,
@@ -73,18 +74,18 @@ pub(super) struct Tally(Balance);
 impl Tally {
     /// Counts a photon; what arrives on the receiver is added to the deposits.
     pub(super) fn count(&mut self, fates: &[Option<Fate>; 3], deposits: &mut Vec<Deposit>) {
-        for Fate { mask, tint, place } in fates.iter().flatten() {
+        for Fate { mask, tint, ending } in fates.iter().flatten() {
             let left = *mask * *tint;
             self.0.emitted += *mask;
             self.0.absorbed += *mask - left;
-            match place {
-                Place::Bin(bin) => {
+            match ending {
+                Ending::Bin(bin) => {
                     self.0.deposited += left;
                     deposits.push(Deposit { bin: *bin, share: left });
                 }
-                Place::Surface => self.0.absorbed += left,
-                Place::Environment => self.0.escaped += left,
-                Place::Nowhere => self.0.dropped += left,
+                Ending::Surface => self.0.absorbed += left,
+                Ending::Environment => self.0.escaped += left,
+                Ending::Nowhere => self.0.dropped += left,
             }
         }
     }
@@ -111,73 +112,63 @@ impl Tally {
 
 /// Follows a photon: once for all colours, or once for each where they bend
 /// differently.
-pub(super) fn photon<M: Media>(
+pub(super) fn photon<W: Winding, const LENGTHS: bool>(
     tracer: &Tracer<'_>,
     target: &Target<'_>,
-    flight: Flight<M>,
+    flight: Flight<W>,
     draws: Draws,
     scratch: &mut Scratch,
 ) -> [Option<Fate>; 3] {
     let mut fates = [None, None, None];
-    for (fate, wave) in fates.iter_mut().zip(&tracer.waves) {
-        let draws = draws.clone();
-        let (tint, place) = follow(tracer, target, (flight.clone(), wave), draws, scratch);
-        // One wave carries all colours, or each of three its own.
-        let mask = DVec3::new(wave.share.x_axis.x, wave.share.y_axis.y, wave.share.z_axis.z);
-        *fate = Some(Fate { mask, tint, place });
+    for (fate, wavelength) in fates.iter_mut().zip(&tracer.wavelengths) {
+        let start = (flight.clone(), draws.clone());
+        let optics = &wavelength.optics;
+        let (tint, ending) = follow::<W, LENGTHS>(tracer, target, start, optics, scratch);
+        // One wavelength carries all colours, or each of three its own.
+        let share = &wavelength.share;
+        let mask = DVec3::new(share.x_axis.x, share.y_axis.y, share.z_axis.z);
+        *fate = Some(Fate { mask, tint, ending });
     }
     fates
 }
 
-fn follow<M: Media>(
+/// What media have left of a photon, and where it ends.
+fn follow<W: Winding, const LENGTHS: bool>(
     tracer: &Tracer<'_>,
     target: &Target<'_>,
-    (mut flight, wave): (Flight<M>, &Wave),
-    mut draws: Draws,
+    (flight, mut draws): (Flight<W>, Draws),
+    optics: &MediaOptics,
     scratch: &mut Scratch,
-) -> (DVec3, Place) {
-    let optics = &wave.optics;
-    let (mut tint, mut memory) = (DVec3::ONE, Memory::new());
-    for _ in 0..=tracer.restriction.max_events {
-        let end = tracer.world.follow::<M, true>(&flight, &optics.indices, scratch);
-        tint *= optics.transmittance(&scratch.pieces);
-        let mut event = match end {
-            End::Event(event) => event,
-            End::Environment => return (tint, Place::Environment),
-            End::Opaque(crossing) => {
-                let body = &tracer.world.bodies[crossing.body as usize];
-                let spot = tracer.world.spot(&crossing);
-                let lit = crossing.entering && body.object == target.receiver;
-                let outward = spot.normals.geometric;
-                let place = target.face.place(spot.position, outward).filter(|_| lit);
-                return (tint, place.map_or(Place::Surface, |at| target.bin(at)));
-            }
-        };
-        memory.prepare(&mut event);
-        let bend = optics.bend(flight.direction, &event);
-        let incoming = flight.direction;
-        match bend.transmitted {
-            Some(direction) => {
-                let back = draws.next() < bend.reflectance;
-                memory.turn(&event, incoming, back, tint, optics);
-                flight =
-                    if back { reflected(&event, &bend) } else { transmitted(&event, direction) };
-            }
-            None => {
-                flight = reflected(&event, &bend);
-                if let Some(again) = memory.total_reflection(optics) {
-                    (flight, tint) = again;
-                }
+) -> (DVec3, Ending) {
+    let mut path = Path::new(flight, ());
+    let ending = loop {
+        match tracer.meet::<W, _, LENGTHS>(&mut path, optics, scratch) {
+            Met::Environment => break Ending::Environment,
+            Met::OneTooMany => break Ending::Nowhere,
+            Met::Opaque(crossing) => break target.ending(tracer, &crossing),
+            Met::Boundary(fork) => {
+                let back = !fork.is_total() && draws.next() < fork.bend.reflectance;
+                let side = if back { Side::Reflected } else { Side::Transmitted };
+                path.go_on(&fork, side, optics);
             }
         }
-    }
-    (tint, Place::Nowhere)
+    };
+    (path.so_far.tint, ending)
 }
 
 impl Target<'_> {
-    fn bin(&self, at: [f64; 2]) -> Place {
+    /// Where a photon ends that meets an opaque surface.
+    fn ending(&self, tracer: &Tracer<'_>, crossing: &Crossing) -> Ending {
+        let body = &tracer.world.bodies[crossing.body as usize];
+        let spot = tracer.world.spot(crossing);
+        let lit = crossing.entering && body.object == self.receiver;
+        let shares = self.face.shares_at(spot.position, spot.normals.geometric);
+        shares.filter(|_| lit).map_or(Ending::Surface, |at| self.bin(at))
+    }
+
+    fn bin(&self, at: [f64; 2]) -> Ending {
         let index = |share: f64, count: u32| ((share * f64::from(count)) as u32).min(count - 1);
         let [columns, rows] = self.size_bins;
-        Place::Bin(index(at[1], rows) * columns + index(at[0], columns))
+        Ending::Bin(index(at[1], rows) * columns + index(at[0], columns))
     }
 }

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 /// The shape, its place, and a ball around it.
 #[derive(Clone, Debug)]
-pub(crate) struct Placed {
+pub(crate) struct AnalyticBody {
     pub(crate) body: u32,
     /// Number of its entry; the exit has the next.
     pub(crate) id: u32,
@@ -22,7 +22,7 @@ pub(crate) struct Placed {
     radius_m: f64,
 }
 
-impl Placed {
+impl AnalyticBody {
     pub(crate) fn new(body: u32, shape: &Arc<Shape>, world_from_object: DAffine3) -> Self {
         let object_from_world = world_from_object.inverse();
         let radius_m = match **shape {
@@ -89,7 +89,7 @@ mod tests {
         let (mut met, mut passed) = (0, 0);
         for shape in shapes {
             let place = DAffine3 { matrix3: turned, translation: DVec3::new(3.0, -1.0, 0.2) };
-            let placed = Placed::new(0, &Arc::new(shape), place);
+            let body = AnalyticBody::new(0, &Arc::new(shape), place);
             for i in 0..20_000 {
                 let turn = f64::from(i) * 0.618_033_988_749_895 * std::f64::consts::TAU;
                 let z = 1.0 - f64::from(i) / 1e4;
@@ -97,10 +97,10 @@ mod tests {
                 let direction = DVec3::new(r * turn.cos(), r * turn.sin(), z).normalize();
                 let aside = direction.any_orthonormal_vector() * f64::from(i % 97) * 0.02;
                 let line = Line::new(place.translation + aside - direction * 4.0, direction);
-                let meets = placed.chord(&line).is_some();
-                assert!(!(meets && placed.is_passed_by(&line)));
+                let meets = body.chord(&line).is_some();
+                assert!(!(meets && body.is_passed_by(&line)));
                 met += u32::from(meets);
-                passed += u32::from(placed.is_passed_by(&line));
+                passed += u32::from(body.is_passed_by(&line));
             }
         }
         assert!(met > 20_000 && passed > 10_000, "{met} {passed}");
@@ -110,8 +110,8 @@ mod tests {
     #[test]
     fn a_ball_is_told_from_a_near_miss() {
         let place = DAffine3::from_scale(DVec3::splat(0.25));
-        let placed = Placed::new(0, &Arc::new(Shape::Sphere { radius_m: 2.0 }), place);
+        let body = AnalyticBody::new(0, &Arc::new(Shape::Sphere { radius_m: 2.0 }), place);
         let at = |y: f64| Line::new(DVec3::new(-3.0, y, 0.0), DVec3::X);
-        assert!(!placed.is_passed_by(&at(0.5)) && placed.is_passed_by(&at(0.5 + 1e-12)));
+        assert!(!body.is_passed_by(&at(0.5)) && body.is_passed_by(&at(0.5 + 1e-12)));
     }
 }

@@ -7,14 +7,14 @@ use std::sync::Arc;
 /// Unit normals of a mesh. Which three belong to a triangle is left where it is:
 /// in the mesh.
 #[derive(Clone, Debug)]
-pub(crate) struct Smooth {
+pub(crate) struct ShadingNormals {
     values: Vec<DVec3>,
     shape: Arc<Shape>,
     /// A mirrored mesh is baked with its last two corners swapped.
     mirrored: bool,
 }
 
-impl Smooth {
+impl ShadingNormals {
     /// Bytes held beside the scene's.
     pub(crate) fn bytes(&self) -> u64 {
         (self.values.capacity() * size_of::<DVec3>()) as u64
@@ -32,7 +32,10 @@ impl Smooth {
 
 /// The mesh's own normals, or angle-weighted means of the adjacent faces where
 /// it brings none; nothing for a shape that is no mesh.
-pub(crate) fn smooth_normals(shape: &Arc<Shape>, normal_from_object: DMat3) -> Option<Smooth> {
+pub(crate) fn shading_normals(
+    shape: &Arc<Shape>,
+    normal_from_object: DMat3,
+) -> Option<ShadingNormals> {
     let world = |n: &DVec3| (normal_from_object * *n).normalize_or_zero();
     let of = |mesh: &Mesh| match &mesh.normals {
         Some(normals) => normals.values.iter().map(world).collect(),
@@ -41,5 +44,5 @@ pub(crate) fn smooth_normals(shape: &Arc<Shape>, normal_from_object: DMat3) -> O
     };
     let values = of(shape.mesh()?);
     let mirrored = normal_from_object.determinant() < 0.0;
-    Some(Smooth { values, shape: Arc::clone(shape), mirrored })
+    Some(ShadingNormals { values, shape: Arc::clone(shape), mirrored })
 }

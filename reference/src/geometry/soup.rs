@@ -10,13 +10,13 @@ use std::sync::Arc;
 /// Triangles, numbered through from 0.
 #[derive(Debug, Default)]
 pub(crate) struct Soup {
-    pieces: Vec<Piece>,
+    bodies: Vec<BodyTriangles>,
     count: usize,
 }
 
 /// The triangles of one body.
 #[derive(Debug)]
-struct Piece {
+struct BodyTriangles {
     first_id: u32,
     body: u32,
     positions: Vec<[f64; 3]>,
@@ -39,15 +39,16 @@ impl Soup {
     pub(crate) fn of_corners(corners: &[[DVec3; 3]]) -> Self {
         let positions = corners.iter().flatten().map(DVec3::to_array).collect();
         let corners_of = Corners::InOrder;
-        let piece = Piece { first_id: 0, body: 0, positions, corners: corners_of, mirrored: false };
-        Self { pieces: vec![piece], count: corners.len() }
+        let body =
+            BodyTriangles { first_id: 0, body: 0, positions, corners: corners_of, mirrored: false };
+        Self { bodies: vec![body], count: corners.len() }
     }
 
     /// Adds the triangles of a shape, if it is a mesh.
     pub(crate) fn add(&mut self, shape: &Arc<Shape>, place: DAffine3, body: u32) {
         let Some(mesh) = shape.mesh() else { return };
         let positions = mesh.positions.iter().map(|p| place.transform_point3(*p).to_array());
-        self.pieces.push(Piece {
+        self.bodies.push(BodyTriangles {
             first_id: self.count as u32,
             body,
             positions: positions.collect(),
@@ -63,12 +64,12 @@ impl Soup {
 
     /// A triangle by its number.
     pub(crate) fn triangle(&self, id: u32) -> Triangle {
-        let after = self.pieces.partition_point(|piece| piece.first_id <= id);
-        self.pieces[after - 1].triangle(id)
+        let after = self.bodies.partition_point(|body| body.first_id <= id);
+        self.bodies[after - 1].triangle(id)
     }
 }
 
-impl Piece {
+impl BodyTriangles {
     fn triangle(&self, id: u32) -> Triangle {
         let index = id - self.first_id;
         let corners = match &self.corners {

@@ -1,204 +1,134 @@
-//! From pixels to named layers.
+//! From pixels to the layers that are asked for.
 
+use super::layer_table::{LayerRow, Needs, Pixel, Source, TABLE, Values, row_of};
 use crate::error::Error;
-use crate::request::{Estimator, Level, Paths, Request};
-use crate::transport::chain::Chain;
-use glam::DVec3;
+use crate::request::Request;
 use scenes::{LayerName, Layers, Scene};
 
-/// Layer: 1 where the straight ray through the pixel's centre meets a crack
-/// inside its solid.
-const CRACK_MASK: &str = "crack_mask";
-
-/// Layer: Stokes parameters Q, U, V of the middle channel (the d line), for the
-/// image's horizontal axis.
-const STOKES: &str = "stokes";
-
 /// Every layer that can be asked for, and what it shows.
-pub const LAYERS: [(&str, &str); 16] = [
-    ("radiance", "linear radiance, mean over the pixel"),
-    ("variance", "variance of that mean; random paths in 2 batches or more"),
-    ("samples", "camera rays per pixel"),
-    ("truncated", "weight of the paths that were cut off, mean over the pixel"),
-    ("coverage", "share of the pixel's positions whose ray meets an object"),
-    ("bounce<N>", "radiance that arrives after exactly N interfaces, such as bounce2; not with R0"),
-    ("stokes", "Stokes parameters Q, U, V of the d line; polarised, not with R0"),
-    ("exit", "unit direction in which the chain through the pixel's centre leaves"),
-    ("exit_position", "where the chain leaves, metres"),
-    ("first", "unit direction after the chain's first event"),
-    ("hit2", "where the chain meets its second interface, metres"),
-    ("events", "interfaces that the chain meets"),
-    ("total_reflections", "how many of them reflect it totally"),
-    ("flags", "bits, told by `snell methods`"),
-    ("path.<MEDIUM>", "metres that the chain travels in a medium, by its name in the scene"),
-    ("crack_mask", "1 where the straight ray through the centre meets a crack in a solid"),
-];
+pub const LAYERS: [(&str, &str); TABLE.len()] = {
+    let mut list = [("", ""); TABLE.len()];
+    let mut i = 0;
+    while i < list.len() {
+        list[i] = (TABLE[i].name, TABLE[i].shows);
+        i += 1;
+    }
+    list
+};
 
-fn is_mask(name: &LayerName) -> bool {
-    matches!(name, LayerName::Buffer(name) if name == CRACK_MASK)
-}
-
-/// Everything that can be known about a pixel.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Pixel {
-    pub(crate) chain: Chain,
-    pub(crate) radiance: DVec3,
-    pub(crate) truncated: f64,
-    pub(crate) coverage: f64,
-    pub(crate) samples: f64,
-    /// Of the mean over batches.
-    pub(crate) variance: DVec3,
-    /// Radiance by number of interfaces, as far as asked for.
-    pub(crate) bounces: Vec<DVec3>,
-    /// Q, U, V of the d line.
-    pub(crate) polarisation: DVec3,
-    /// The straight ray through the centre meets a crack inside a solid.
-    pub(crate) crack: bool,
-}
-
-/// The layers asked for, as columns of a row of pixels.
-#[derive(Clone, Debug)]
-pub(crate) struct Columns {
-    names: Vec<(LayerName, usize)>,
-    /// Medium of each `path.<medium>` layer, in order.
-    media: Vec<usize>,
+/// The layers asked for, in order, each once.
+pub(crate) struct RequestedLayers {
+    list: Vec<Requested>,
     /// Numbers per pixel.
     pub(crate) stride: usize,
-    /// A layer shows the chain through the pixel's centre.
-    pub(crate) needs_chain: bool,
-    /// A layer shows the mean over the pixel's positions.
-    pub(crate) needs_mean: bool,
-    /// A layer shows where cracks are.
-    pub(crate) needs_cracks: bool,
     /// Numbers of interfaces whose light is kept apart.
     pub(crate) bounces: usize,
 }
 
-impl Columns {
+struct Requested {
+    name: LayerName,
+    row: &'static LayerRow,
+    /// Of the medium, or of the bounce.
+    number: usize,
+}
+
+impl RequestedLayers {
+    /// # Errors
+    /// A layer does not exist, or not with this scene and request.
     pub(crate) fn new(scene: &Scene, request: &Request) -> Result<Self, Error> {
-        let mut names: Vec<(LayerName, usize)> = Vec::new();
-        let (mut media, mut bounces) = (Vec::new(), 0);
+        let mut list: Vec<Requested> = Vec::new();
         for name in &request.view.layers {
-            let unknown = || Error::Layer {
-                layer: name.to_string(),
-                available: LAYERS.map(|(name, _)| name).join(", "),
-            };
-            let channels = match name {
-                LayerName::Radiance
-                | LayerName::Exit
-                | LayerName::ExitPosition
-                | LayerName::First
-                | LayerName::Hit2 => 3,
-                LayerName::Bounce(order) if request.level != Level::R0 && !request.polarised => {
-                    bounces = bounces.max(usize::from(*order) + 1);
-                    3
-                }
-                LayerName::Variance => match request.estimator {
-                    Estimator::Paths(Paths { batches: 2.., .. }) if request.level != Level::R0 => 3,
-                    _ => return Err(Error::NoVariance),
-                },
-                LayerName::Coverage
-                | LayerName::Events
-                | LayerName::TotalReflections
-                | LayerName::Flags
-                | LayerName::Truncated
-                | LayerName::Samples => 1,
-                LayerName::Path(medium) => {
-                    let found = scene.media.iter().position(|m| m.name == *medium);
-                    media.push(found.ok_or_else(unknown)?);
-                    1
-                }
-                LayerName::Buffer(name) if name == CRACK_MASK => 1,
-                LayerName::Buffer(name)
-                    if name == STOKES && request.polarised && request.level != Level::R0 =>
-                {
-                    3
-                }
-                _ => return Err(unknown()),
-            };
-            if !names.iter().any(|(other, _)| other == name) {
-                names.push((name.clone(), channels));
+            let one = requested(scene, request, name)?;
+            if !list.iter().any(|other| other.name == *name) {
+                list.push(one);
             }
         }
+        let order = |one: &Requested| match one.name {
+            LayerName::Bounce(_) => one.number + 1,
+            _ => 0,
+        };
         Ok(Self {
-            stride: names.iter().map(|(_, channels)| channels).sum(),
-            needs_chain: names.iter().any(|(name, _)| is_of_chain(name)),
-            needs_mean: names.iter().any(|(name, _)| !is_of_chain(name) && !is_mask(name)),
-            needs_cracks: names.iter().any(|(name, _)| is_mask(name)),
-            media,
-            bounces,
-            names,
+            stride: list.iter().map(Requested::channels).sum(),
+            bounces: list.iter().map(order).max().unwrap_or(0),
+            list,
         })
     }
 
-    /// True if a layer shows lengths per medium.
+    fn needs(&self, source: Source) -> bool {
+        self.list.iter().any(|one| one.row.source == source)
+    }
+
+    /// A layer shows the chain through the pixel's centre.
+    pub(crate) fn needs_chain(&self) -> bool {
+        self.needs(Source::Chain)
+    }
+
+    /// A layer shows the mean over the pixel's positions.
+    pub(crate) fn needs_mean(&self) -> bool {
+        self.needs(Source::Mean)
+    }
+
+    /// A layer shows where cracks are.
+    pub(crate) fn needs_cracks(&self) -> bool {
+        self.needs(Source::StraightLine)
+    }
+
+    /// A layer shows lengths per medium.
     pub(crate) fn needs_lengths(&self) -> bool {
-        !self.media.is_empty()
+        self.list.iter().any(|one| matches!(one.name, LayerName::Path(_)))
     }
 
     /// Names and channels, in order.
-    pub(crate) fn names(&self) -> &[(LayerName, usize)] {
-        &self.names
+    pub(crate) fn names(&self) -> impl Iterator<Item = (&LayerName, usize)> {
+        self.list.iter().map(|one| (&one.name, one.channels()))
     }
 
-    /// Appends a pixel's numbers to a row.
-    pub(crate) fn write(&self, pixel: &Pixel, row: &mut Vec<f64>) {
-        let chain = &pixel.chain;
-        let mut media = self.media.iter();
-        for (name, _) in &self.names {
-            let vector = |row: &mut Vec<f64>, v: DVec3| row.extend(v.to_array());
-            match name {
-                LayerName::Radiance => vector(row, pixel.radiance),
-                LayerName::Exit => vector(row, chain.exit),
-                LayerName::ExitPosition => vector(row, chain.exit_position),
-                LayerName::First => vector(row, chain.first),
-                LayerName::Hit2 => vector(row, chain.hit2),
-                LayerName::Coverage => row.push(pixel.coverage),
-                LayerName::Events => row.push(f64::from(chain.events)),
-                LayerName::TotalReflections => row.push(f64::from(chain.total_reflections)),
-                LayerName::Flags => row.push(f64::from(chain.flags)),
-                LayerName::Truncated => row.push(pixel.truncated),
-                LayerName::Buffer(name) if name == STOKES => vector(row, pixel.polarisation),
-                LayerName::Buffer(_) => row.push(f64::from(u8::from(pixel.crack))),
-                LayerName::Samples => row.push(pixel.samples),
-                LayerName::Variance => vector(row, pixel.variance),
-                LayerName::Bounce(order) => {
-                    let bounce = pixel.bounces.get(usize::from(*order));
-                    vector(row, bounce.copied().unwrap_or_default());
-                }
-                _ => {
-                    let length = media.next().and_then(|medium| chain.lengths.get(*medium));
-                    row.push(length.copied().unwrap_or(0.0));
-                }
+    /// Appends a pixel's numbers to a row of them.
+    pub(crate) fn write(&self, pixel: &Pixel, numbers: &mut Vec<f64>) {
+        for Requested { row, number, .. } in &self.list {
+            match row.values {
+                Values::One(value) => numbers.push(value(pixel, *number)),
+                Values::Three(value) => numbers.extend(value(pixel, *number).to_array()),
             }
         }
     }
 
     /// Gathers finished rows into layers.
-    pub(crate) fn layers(&self, resolution_px: [u32; 2], rows: &[Vec<f64>]) -> Layers {
+    pub(crate) fn gather(&self, resolution_px: [u32; 2], rows: &[Vec<f64>]) -> Layers {
         let mut layers = Layers::new(resolution_px);
         let mut offset = 0;
-        for (name, channels) in &self.names {
+        for (name, channels) in self.names() {
             let pixels = rows.iter().flat_map(|row| row.chunks_exact(self.stride));
             let data = pixels.flat_map(|pixel| &pixel[offset..offset + channels]).copied();
-            layers.push(name.clone(), *channels, data.collect());
+            layers.push(name.clone(), channels, data.collect());
             offset += channels;
         }
         layers
     }
 }
 
-/// True for layers that come from the chain through the pixel's centre.
-fn is_of_chain(name: &LayerName) -> bool {
-    matches!(
-        name,
-        LayerName::Exit
-            | LayerName::ExitPosition
-            | LayerName::First
-            | LayerName::Hit2
-            | LayerName::Events
-            | LayerName::TotalReflections
-            | LayerName::Flags
-            | LayerName::Path(_)
-    )
+impl Requested {
+    fn channels(&self) -> usize {
+        self.row.values.channels()
+    }
+}
+
+fn requested(scene: &Scene, request: &Request, name: &LayerName) -> Result<Requested, Error> {
+    let unknown = || Error::Layer {
+        layer: name.to_string(),
+        available: LAYERS.map(|(name, _)| name).join(", "),
+    };
+    let row = row_of(name).ok_or_else(unknown)?;
+    if !row.needs.are_met(request) {
+        return Err(if row.needs == Needs::Batches { Error::NoVariance } else { unknown() });
+    }
+    let number = match name {
+        LayerName::Path(wanted) => {
+            let found = scene.media.iter().position(|medium| medium.name == *wanted);
+            found.ok_or_else(unknown)?
+        }
+        LayerName::Bounce(order) => usize::from(*order),
+        _ => 0,
+    };
+    Ok(Requested { name: name.clone(), row, number })
 }

@@ -1,6 +1,8 @@
 //! From pixels to layers: what an image is asked for, and how it is filled.
 
-pub(crate) mod job;
+mod layer_table;
 pub(crate) mod layers;
-pub(crate) mod pixel;
+mod pixel;
 pub(crate) mod plan;
+mod rows;
+pub(crate) mod run;

@@ -1,37 +1,38 @@
-//! The light that falls on one pixel: the mean over its positions, or over
+//! The integrator of one pixel: the mean of light over its positions, or over
 //! random ones.
 
-use crate::image::job::Job;
-use crate::image::layers::Pixel;
+use super::layer_table::Pixel;
+use super::run::ImageRun;
 use crate::request::{Estimator, Level, Paths, Positions};
 use crate::sampling::lattice::Lattice;
 use crate::sampling::sobol::Points;
 use crate::transport::branching::{Cut, Policy, Roulette};
-use crate::transport::spectrum::{Total, Wave};
+use crate::transport::spectrum::{Total, Wavelength};
 use crate::transport::tree::{Branch, Climb, Sum};
-use crate::world::short_way::{Flight, Scratch};
-use crate::world::winding::Media;
+use crate::world::flight::Flight;
+use crate::world::scratch::Scratch;
+use crate::world::winding::Winding;
 use glam::{DVec2, DVec3, Vec4Swizzles};
 
 /// Working memory for the light of one pixel.
-pub(crate) struct Light<'a, 'b, M> {
-    pub(crate) job: &'a Job<'b>,
-    pub(crate) waiting: &'a mut Vec<Branch<M>>,
-    pub(crate) scratch: &'a mut Scratch,
-    pub(crate) bounces: Vec<DVec3>,
+pub(super) struct PixelIntegrator<'a, 'b, W> {
+    pub(super) image: &'a ImageRun<'b>,
+    pub(super) waiting: &'a mut Vec<Branch<W>>,
+    pub(super) scratch: &'a mut Scratch,
+    pub(super) bounces: Vec<DVec3>,
 }
 
-impl<M: Media> Light<'_, '_, M> {
+impl<W: Winding> PixelIntegrator<'_, '_, W> {
     /// Fills in everything that is a mean over the pixel.
     pub(crate) fn pixel<const UNIFORM: bool, const LENGTHS: bool>(
         &mut self,
         corner_px: DVec2,
         pixel: &mut Pixel,
     ) {
-        pixel.bounces = vec![DVec3::ZERO; self.job.columns.bounces];
-        let k = self.job.request.view.positions_per_axis;
-        let count = match self.job.request.estimator {
-            Estimator::Paths(paths) if self.job.request.level != Level::R0 => {
+        pixel.bounces = vec![DVec3::ZERO; self.image.layers.bounces];
+        let k = self.image.request.view.positions_per_axis;
+        let count = match self.image.request.estimator {
+            Estimator::Paths(paths) if self.image.request.level != Level::R0 => {
                 self.batches::<UNIFORM, LENGTHS>(corner_px, paths, pixel);
                 f64::from(paths.batches) * f64::from(paths.per_batch(k))
             }
@@ -60,7 +61,7 @@ impl<M: Media> Light<'_, '_, M> {
         paths: Paths,
         pixel: &mut Pixel,
     ) {
-        let view = &self.job.request.view;
+        let view = &self.image.request.view;
         let k = view.positions_per_axis;
         let index = (corner_px.y * f64::from(view.resolution_px[0]) + corner_px.x) as u64;
         // Mean and sum of squared deviations so far (Welford 1962).
@@ -95,28 +96,28 @@ impl<M: Media> Light<'_, '_, M> {
         policy: P,
         pixel: &mut Pixel,
     ) {
-        let tracer = self.job.tracer;
-        let ray = self.job.camera.ray_through(position_px);
-        let flight: Flight<M> = tracer.launch(ray, self.scratch);
-        if self.job.request.level == Level::R0 {
-            let chain = tracer.chain::<M, UNIFORM, LENGTHS>(flight, self.scratch);
+        let tracer = self.image.tracer;
+        let ray = self.image.camera.ray_through(position_px);
+        let flight: Flight<W> = tracer.launch(ray, self.scratch);
+        if self.image.request.level == Level::R0 {
+            let chain = tracer.chain::<W, UNIFORM, LENGTHS>(flight, self.scratch);
             pixel.radiance += chain.radiance;
             pixel.truncated += f64::from(u8::from(chain.lost()));
             pixel.coverage += f64::from(u8::from(chain.met));
             return;
         }
         if let (true, Estimator::Tree { cut }) =
-            (self.job.request.polarised, self.job.request.estimator)
+            (self.image.request.polarised, self.image.request.estimator)
         {
             self.polarised::<UNIFORM, LENGTHS>(flight, Cut(cut), pixel);
             return;
         }
         let mut total = Total::default();
-        for (number, wave) in tracer.waves.iter().enumerate() {
+        for (number, wavelength) in tracer.wavelengths.iter().enumerate() {
             let flight = flight.clone();
-            let sum = self.tree::<P, UNIFORM, LENGTHS>(flight, wave, policy.clone(), pixel);
-            wave.add(sum.radiance, sum.truncated, &mut total);
-            if number == tracer.waves.len() / 2 {
+            let sum = self.tree::<P, UNIFORM, LENGTHS>(flight, wavelength, policy.clone(), pixel);
+            wavelength.add(sum.radiance, sum.truncated, &mut total);
+            if number == tracer.wavelengths.len() / 2 {
                 pixel.coverage += f64::from(u8::from(sum.met));
             }
         }
@@ -128,28 +129,28 @@ impl<M: Media> Light<'_, '_, M> {
     /// image's horizontal.
     fn polarised<const UNIFORM: bool, const LENGTHS: bool>(
         &mut self,
-        flight: Flight<M>,
+        flight: Flight<W>,
         cut: Cut,
         pixel: &mut Pixel,
     ) {
-        let tracer = self.job.tracer;
-        let axis = flight.direction.cross(self.job.camera.basis().up).normalize();
+        let tracer = self.image.tracer;
+        let axis = flight.direction.cross(self.image.camera.basis().up).normalize();
         let mut total = Total::default();
-        for (number, wave) in tracer.waves.iter().enumerate() {
-            let sum = tracer.polarised_tree::<M, UNIFORM, LENGTHS>(
+        for (number, wavelength) in tracer.wavelengths.iter().enumerate() {
+            let sum = tracer.polarised_tree::<W, UNIFORM, LENGTHS>(
                 flight.clone(),
                 axis,
-                &wave.optics,
+                &wavelength.optics,
                 cut,
                 self.scratch,
             );
             let [red, green, blue] = sum.channels;
-            wave.add(DVec3::new(red.x, green.x, blue.x), sum.truncated, &mut total);
+            wavelength.add(DVec3::new(red.x, green.x, blue.x), sum.truncated, &mut total);
             // The polarisation that is shown is that of green.
-            let share = wave.share.row(1);
+            let share = wavelength.share.row(1);
             pixel.polarisation +=
                 share.x * red.yzw() + share.y * green.yzw() + share.z * blue.yzw();
-            if number == tracer.waves.len() / 2 {
+            if number == tracer.wavelengths.len() / 2 {
                 pixel.coverage += f64::from(u8::from(sum.met));
             }
         }
@@ -160,24 +161,24 @@ impl<M: Media> Light<'_, '_, M> {
     /// The tree below a camera ray; its light by bounce goes to the pixel.
     fn tree<P: Policy, const UNIFORM: bool, const LENGTHS: bool>(
         &mut self,
-        flight: Flight<M>,
-        wave: &Wave,
+        flight: Flight<W>,
+        wavelength: &Wavelength,
         policy: P,
         pixel: &mut Pixel,
     ) -> Sum {
         self.bounces.clear();
-        self.bounces.resize(self.job.columns.bounces, DVec3::ZERO);
-        let tracer = self.job.tracer;
+        self.bounces.resize(self.image.layers.bounces, DVec3::ZERO);
+        let tracer = self.image.tracer;
         let mut climb = Climb {
-            optics: &wave.optics,
+            optics: &wavelength.optics,
             policy,
             waiting: self.waiting,
             scratch: self.scratch,
             bounces: &mut self.bounces,
         };
-        let sum = tracer.tree::<M, P, UNIFORM, LENGTHS>(flight, &mut climb);
+        let sum = tracer.tree::<W, P, UNIFORM, LENGTHS>(flight, &mut climb);
         for (total, bounce) in pixel.bounces.iter_mut().zip(&self.bounces) {
-            *total += wave.share * *bounce;
+            *total += wavelength.share * *bounce;
         }
         sum
     }

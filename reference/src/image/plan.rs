@@ -1,63 +1,44 @@
-//! Which variant of the tracer a scene needs, and what it leaves out and why.
+//! What a run does, and what it leaves out and why.
 
+use super::layers::RequestedLayers;
 use crate::error::Error;
-use crate::image::layers::Columns;
 use crate::request::{
     EnvironmentLookup, Estimator, Fresnel, Level, Request, Restriction, Spectrum,
 };
+use crate::transport::variant::Variant;
 use crate::world::World;
-use crate::world::short_way::Counters;
+use crate::world::scratch::Counters;
 use scenes::plan::{Buffer, Kind};
-use scenes::{Environment, Plan, Scene};
+use scenes::{Plan, Scene};
 use std::collections::BTreeMap;
 
-/// Compile-time features of a run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Variant {
-    /// Winding counts to carry; 0 for a single convex body.
-    pub(crate) classes: usize,
-    /// The environment is the same everywhere.
-    pub(crate) uniform: bool,
-    /// Lengths per medium are needed.
-    pub(crate) lengths: bool,
-}
-
 impl Variant {
-    pub(crate) fn new(scene: &Scene, world: &World, request: &Request, columns: &Columns) -> Self {
-        if request.general {
-            return Self { classes: 256, uniform: false, lengths: true };
-        }
-        let absorbs = scene.media.iter().any(scenes::Medium::absorbs);
-        Self {
-            classes: if world.is_one_convex_body() { 0 } else { world.classes.len().max(1) },
-            uniform: matches!(scene.environment, Environment::Uniform(_)),
-            lengths: absorbs || columns.needs_lengths(),
-        }
-    }
-
+    /// What is run for a request, and what is left out.
     pub(crate) fn plan(
         self,
         scene: &Scene,
         world: &World,
         request: &Request,
-        columns: &Columns,
+        layers: &RequestedLayers,
     ) -> Plan {
         let passes = vec!["build".to_owned(), "trace".to_owned()];
         let mut plan = Plan { passes, ..Plan::default() };
         let [width, height] = request.view.resolution_px.map(u64::from);
         let buffer = |name: String, bytes: u64| Buffer { name, bytes };
         plan.buffers = vec![buffer("geometry".to_owned(), world.bytes())];
-        plan.buffers.extend(columns.names().iter().map(|(name, channels)| {
-            buffer(name.to_string(), width * height * *channels as u64 * 8)
+        plan.buffers.extend(layers.names().map(|(name, channels)| {
+            buffer(name.to_string(), width * height * channels as u64 * 8)
         }));
         plan.features = vec![format!("{:?}", request.level), format!("{:?}", request.estimator)];
-        self.media(&mut plan);
-        self.rest(&mut plan, scene, world, request, columns);
+        self.windings(&mut plan);
+        self.lookups(&mut plan, request);
+        light(&mut plan, scene, request);
+        unasked(&mut plan, world, request, layers);
         restricted(&mut plan, request);
         plan
     }
 
-    fn media(self, plan: &mut Plan) {
+    fn windings(self, plan: &mut Plan) {
         match self.classes {
             0 => {
                 plan.features.push("one convex body".to_owned());
@@ -74,14 +55,7 @@ impl Variant {
         }
     }
 
-    fn rest(
-        self,
-        plan: &mut Plan,
-        scene: &Scene,
-        world: &World,
-        request: &Request,
-        columns: &Columns,
-    ) {
+    fn lookups(self, plan: &mut Plan, request: &Request) {
         if self.uniform {
             let reason = "the environment is the same in every direction";
             plan.leave_out(Kind::Code, "environment lookup", reason, 0);
@@ -98,34 +72,42 @@ impl Variant {
             let reason = "no medium absorbs and no layer shows lengths";
             plan.leave_out(Kind::State, "lengths per medium", reason, 0);
         }
-        if scene.media.iter().any(scenes::Medium::is_dispersive) && request.level != Level::R0 {
-            plan.features.push(match request.spectrum {
-                Spectrum::Channels => "three traces, one per channel".to_owned(),
-                Spectrum::Wavelengths(count) => format!("{count} traces, one per wavelength"),
-            });
-        } else {
-            let reason = "no medium is dispersive, or the chain follows the d line alone";
-            plan.leave_out(Kind::Pass, "traces for other wavelengths", reason, 0);
-        }
-        if request.polarised {
-            plan.features.push("polarisation".to_owned());
-        } else {
-            plan.leave_out(Kind::State, "polarisation", "it was not asked for", 0);
-        }
-        if world.tree.len() == 0 {
-            plan.leave_out(Kind::Buffer, "tree", "no body is a mesh", 0);
-        }
-        if !columns.needs_chain {
-            let reason = "no layer shows the chain through the pixel's centre";
-            plan.leave_out(Kind::Pass, "centre chain", reason, 0);
-        }
-        if !columns.needs_mean {
-            let reason = "no layer shows a mean over the pixel";
-            plan.leave_out(Kind::Pass, "positions per pixel", reason, 0);
-        }
-        if matches!(request.estimator, Estimator::Tree { .. }) {
-            plan.leave_out(Kind::State, "random numbers", "the tree of paths is followed whole", 0);
-        }
+    }
+}
+
+/// What light is made of.
+fn light(plan: &mut Plan, scene: &Scene, request: &Request) {
+    if scene.media.iter().any(scenes::Medium::is_dispersive) && request.level != Level::R0 {
+        plan.features.push(match request.spectrum {
+            Spectrum::Channels => "three traces, one per channel".to_owned(),
+            Spectrum::Wavelengths(count) => format!("{count} traces, one per wavelength"),
+        });
+    } else {
+        let reason = "no medium is dispersive, or the chain follows the d line alone";
+        plan.leave_out(Kind::Pass, "traces for other wavelengths", reason, 0);
+    }
+    if request.polarised {
+        plan.features.push("polarisation".to_owned());
+    } else {
+        plan.leave_out(Kind::State, "polarisation", "it was not asked for", 0);
+    }
+}
+
+/// What no layer or no body asks for.
+fn unasked(plan: &mut Plan, world: &World, request: &Request, layers: &RequestedLayers) {
+    if world.tree.len() == 0 {
+        plan.leave_out(Kind::Buffer, "tree", "no body is a mesh", 0);
+    }
+    if !layers.needs_chain() {
+        let reason = "no layer shows the chain through the pixel's centre";
+        plan.leave_out(Kind::Pass, "centre chain", reason, 0);
+    }
+    if !layers.needs_mean() {
+        let reason = "no layer shows a mean over the pixel";
+        plan.leave_out(Kind::Pass, "positions per pixel", reason, 0);
+    }
+    if matches!(request.estimator, Estimator::Tree { .. }) {
+        plan.leave_out(Kind::State, "random numbers", "the tree of paths is followed whole", 0);
     }
 }
 
@@ -166,10 +148,10 @@ fn restricted(plan: &mut Plan, request: &Request) {
 /// As [`crate::render`].
 pub fn plan(scene: &Scene, request: &Request) -> Result<Plan, Error> {
     request.check()?;
-    let columns = Columns::new(scene, request)?;
+    let layers = RequestedLayers::new(scene, request)?;
     let world = World::new(scene, request.view.frame, request.level)?;
-    let variant = Variant::new(scene, &world, request, &columns);
-    Ok(variant.plan(scene, &world, request, &columns))
+    let variant = Variant::new(scene, &world, request.keep, layers.needs_lengths());
+    Ok(variant.plan(scene, &world, request, &layers))
 }
 
 impl Counters {

@@ -18,20 +18,25 @@ pub(crate) struct Bend {
 
 /// The two normals at a point, both outward and unit.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Normals {
+pub(crate) struct SurfaceNormals {
     pub(crate) geometric: DVec3,
     pub(crate) shading: DVec3,
 }
 
-/// Bends a ray of direction `d` at a boundary.
+/// Bends a ray at a boundary.
 ///
-/// `entering` says that the ray goes against the outward side; it comes from
-/// exact geometry, so rounding in `d · n` cannot contradict it. If the shading
-/// normal does not face the ray, or sends either continuation to the wrong side
-/// of the surface, the whole event uses the geometric normal.
+/// If the shading normal does not face the ray, or sends either continuation to
+/// the wrong side of the surface, the whole event uses the geometric normal.
+///
+/// * `d`: unit direction of travel.
+/// * `entering`: the ray goes against the outward side; it comes from exact
+///   geometry, so rounding in `d · n` cannot contradict it.
+/// * `eta_i`, `eta_t`: absolute indices of the side the ray leaves and the side
+///   it would enter.
+/// * `model`: the formula of the reflectance.
 pub(crate) fn bend(
     d: DVec3,
-    normals: Normals,
+    normals: SurfaceNormals,
     entering: bool,
     [eta_i, eta_t]: [f64; 2],
     model: Fresnel,
@@ -52,16 +57,25 @@ pub(crate) fn bend(
     bend_at(d, flat, [eta_i, eta_t], model)
 }
 
-/// Crosses a parallel gap of air in a medium of index `eta`.
+/// Crosses a parallel gap of air in a medium.
+///
+/// * `d`: unit direction of travel; `entering`: it goes against the outward side.
+/// * `eta`: absolute index of the medium on both sides of the gap.
 ///
 /// Light goes to and fro in the gap: R = 2 R₁ / (1 + R₁) with R₁ the
 /// reflectance of one of its faces; what passes keeps its direction.
-pub(crate) fn through_gap(d: DVec3, normals: Normals, entering: bool, eta: f64) -> Bend {
+pub(crate) fn through_gap(d: DVec3, normals: SurfaceNormals, entering: bool, eta: f64) -> Bend {
     let faces = bend(d, normals, entering, [eta, 1.0], Fresnel::Exact);
     let reflectance = 2.0 * faces.reflectance / (1.0 + faces.reflectance);
     Bend { reflectance, transmitted: faces.transmitted.map(|_| d), ..faces }
 }
 
+/// Bends a ray at a boundary with one normal.
+///
+/// * `d`: unit direction of travel, towards the surface.
+/// * `n`: unit normal on the side the ray comes from, so `d · n < 0`.
+/// * `eta_i`, `eta_t`: absolute indices of the side the ray leaves and the side
+///   it would enter.
 fn bend_at(d: DVec3, n: DVec3, [eta_i, eta_t]: [f64; 2], model: Fresnel) -> Bend {
     let cos_i = (-d.dot(n)).clamp(0.0, 1.0);
     let transmitted = refract(d, n, eta_i, eta_t);
@@ -75,7 +89,11 @@ fn bend_at(d: DVec3, n: DVec3, [eta_i, eta_t]: [f64; 2], model: Fresnel) -> Bend
     Bend { reflectance, reflected, transmitted, geometric: false }
 }
 
-/// Schlick's polynomial in the larger of the two angles.
+/// Schlick's polynomial in the larger of the two angles: a share, 0 to 1.
+///
+/// * `cos_i`, `cos_t`: cosines of the angles of incidence and refraction, 0 to 1.
+/// * `eta_i`, `eta_t`: absolute indices of the two sides.
+///
 /// Source: C. Schlick, "An Inexpensive BRDF Model for Physically-based
 /// Rendering", Computer Graphics Forum 13(3), 1994.
 fn schlick(cos_i: f64, cos_t: f64, eta_i: f64, eta_t: f64) -> f64 {
@@ -92,7 +110,7 @@ mod tests {
     /// R, the sum R + (1 - R)² R (1 + R² + R⁴ + …) is 2 R / (1 + R).
     #[test]
     fn a_gap_reflects_what_its_two_faces_do() {
-        let up = Normals { geometric: DVec3::Z, shading: DVec3::Z };
+        let up = SurfaceNormals { geometric: DVec3::Z, shading: DVec3::Z };
         for degrees in [0.0_f64, 20.0, 40.0, 49.0, 50.0, 80.0] {
             let (sin, cos) = degrees.to_radians().sin_cos();
             let d = DVec3::new(sin, 0.0, -cos);

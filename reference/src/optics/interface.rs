@@ -29,6 +29,10 @@ pub fn refract(d: DVec3, n: DVec3, eta_i: f64, eta_t: f64) -> Option<DVec3> {
 }
 
 /// Share of unpolarised light that a boundary reflects; 1 under total reflection.
+///
+/// * `cos_i`: cosine of the angle of incidence, 0 to 1.
+/// * `eta_i`, `eta_t`: absolute indices of the side the light comes from and the
+///   side it would enter.
 #[must_use]
 pub fn fresnel(cos_i: f64, eta_i: f64, eta_t: f64) -> f64 {
     match amplitudes(cos_i, eta_i, eta_t) {
@@ -58,14 +62,18 @@ pub enum Amplitudes {
 }
 
 /// Fresnel's amplitudes at a boundary.
+///
+/// * `cos_i`: cosine of the angle of incidence, 0 to 1.
+/// * `eta_i`, `eta_t`: absolute indices of the side the light comes from and the
+///   side it would enter.
 #[must_use]
 pub fn amplitudes(cos_i: f64, eta_i: f64, eta_t: f64) -> Amplitudes {
-    let ratio = eta_i / eta_t;
+    let eta_i_over_t = eta_i / eta_t;
     let sin2_i = (1.0 - cos_i) * (1.0 + cos_i);
-    let sin_t = ratio * sin2_i.max(0.0).sqrt();
+    let sin_t = eta_i_over_t * sin2_i.max(0.0).sqrt();
     if sin_t >= 1.0 {
         // tan(δ/2) = cos θ √(sin² θ - n²) / sin² θ.
-        let beyond = ((sin_t - 1.0) * (sin_t + 1.0)).sqrt() / ratio;
+        let beyond = ((sin_t - 1.0) * (sin_t + 1.0)).sqrt() / eta_i_over_t;
         let retardance = 2.0 * (cos_i * beyond).atan2(sin2_i);
         return Amplitudes::Total { retardance };
     }
@@ -74,7 +82,7 @@ pub fn amplitudes(cos_i: f64, eta_i: f64, eta_t: f64) -> Amplitudes {
     // n₁² cos² θ₁ - n₂² cos² θ₂ = n₁² - n₂² by Snell's law.
     let s = (eta_i - eta_t) * (eta_i + eta_t) / (sum * sum);
     // r_p = -r_s cos(θ₁ + θ₂) / cos(θ₁ - θ₂).
-    let (cosines, sines) = (cos_i * cos_t, ratio * sin2_i);
+    let (cosines, sines) = (cos_i * cos_t, eta_i_over_t * sin2_i);
     let p = -s * (cosines - sines) / (cosines + sines);
     Amplitudes::Partial { s, p }
 }

@@ -17,7 +17,11 @@ pub(crate) struct Boundary {
     pub(crate) transmitted: DMat4,
 }
 
-/// Shares of the two polarisations, and the product of their amplitudes.
+/// The matrix of what changes the two polarisations differently.
+///
+/// * `s`, `p`: shares of power that remain across and in the plane of incidence.
+/// * `product`: of the factors of the two amplitudes.
+/// * `phase`: of s less that of p, radians.
 fn diattenuator(s: f64, p: f64, product: f64, phase: f64) -> DMat4 {
     let (mean, half) = (0.5 * (s + p), 0.5 * (s - p));
     let (sin, cos) = phase.sin_cos();

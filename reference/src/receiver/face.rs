@@ -62,7 +62,7 @@ impl Face {
 
     /// Shares of the two sides at a point of the receiver, 0 to 1; `None` if a
     /// surface with this outward normal is another one of its sides.
-    pub(crate) fn place(&self, point_ws: DVec3, outward_ws: DVec3) -> Option<[f64; 2]> {
+    pub(crate) fn shares_at(&self, point_ws: DVec3, outward_ws: DVec3) -> Option<[f64; 2]> {
         if outward_ws.dot(self.normal_ws) < 0.999 {
             return None;
         }

@@ -72,7 +72,7 @@ impl CausticMap {
     /// Irradiance at a point of the face, linear between the centres of bins;
     /// `None` if a surface with this outward normal is another side.
     pub(crate) fn at(&self, point: DVec3, outward: DVec3) -> Option<DVec3> {
-        let [u, v] = self.face.place(point, outward)?;
+        let [u, v] = self.face.shares_at(point, outward)?;
         let [columns, rows] = self.size_bins.map(|n| n as usize);
         let split = |share: f64, count: usize| {
             let at = (share * count as f64 - 0.5).clamp(0.0, (count - 1) as f64);

@@ -1,11 +1,12 @@
 //! The primary chain: transmitted wherever possible, reflected where total
 //! reflection leaves no choice. It has one exit, which layers can show.
 
-use crate::transport::media_optics::{reflected, transmitted};
-use crate::transport::restart::Memory;
-use crate::transport::tracer::Tracer;
-use crate::world::short_way::{End, Flight, Scratch};
-use crate::world::winding::Media;
+use super::media_optics::Side;
+use super::path::{Met, Path};
+use super::tracer::Tracer;
+use crate::world::flight::Flight;
+use crate::world::scratch::Scratch;
+use crate::world::winding::Winding;
 use glam::DVec3;
 use scenes::layer::flag;
 
@@ -41,9 +42,9 @@ impl Chain {
 
 impl Tracer<'_> {
     /// Traces the chain of a ray from the camera.
-    pub(crate) fn chain<M: Media, const UNIFORM: bool, const LENGTHS: bool>(
+    pub(crate) fn chain<W: Winding, const UNIFORM: bool, const LENGTHS: bool>(
         &self,
-        mut flight: Flight<M>,
+        flight: Flight<W>,
         scratch: &mut Scratch,
     ) -> Chain {
         let optics = &self.d_line;
@@ -52,62 +53,51 @@ impl Tracer<'_> {
             // The last is air that no medium of the scene stands for.
             chain.lengths = vec![0.0; optics.absorption.len() + 1];
         }
-        let (mut tint, mut memory) = (DVec3::ONE, Memory::new());
-        let interfaces = self.restriction.max_interfaces.unwrap_or(u32::MAX);
+        let mut path = Path::new(flight, ());
         loop {
-            let end = if chain.events >= interfaces {
-                End::Environment
-            } else {
-                self.world.follow::<M, LENGTHS>(&flight, &optics.indices, scratch)
-            };
+            let met = self.meet::<W, _, LENGTHS>(&mut path, optics, scratch);
             if LENGTHS {
-                tint *= optics.transmittance(&scratch.pieces);
-                for (medium, length) in &scratch.pieces {
-                    chain.lengths[usize::from(medium.0)] += length;
+                for (medium, length_m) in &scratch.stretches {
+                    chain.lengths[usize::from(medium.0)] += length_m;
                 }
             }
-            chain.met |= !matches!(end, End::Environment);
-            let mut event = match end {
-                End::Event(event) => event,
-                End::Environment => {
-                    chain.radiance = tint * self.environment::<UNIFORM>(flight.direction);
-                    if chain.events > 0 {
-                        chain.exit = flight.direction;
-                        chain.exit_position = flight.origin;
-                    }
-                    return chain;
-                }
-                End::Opaque(crossing) => {
-                    chain.radiance = tint * self.shade(&flight, &crossing);
-                    return chain;
-                }
-            };
-            chain.events += 1;
-            scratch.counters.events += 1;
-            if chain.events > self.restriction.max_events {
-                chain.flags |= flag::CAP | flag::LOST;
-                scratch.counters.capped += 1;
+            chain.met |= !matches!(met, Met::Environment);
+            chain.events = path.so_far.events;
+            let Met::Boundary(fork) = met else {
+                self.end::<W, UNIFORM>(&mut chain, &path, &met);
                 return chain;
-            }
-            memory.prepare(&mut event);
-            let bend = optics.bend(flight.direction, &event);
-            chain.flags |= if bend.geometric { flag::GEOMETRIC_NORMAL } else { 0 };
-            if let Some(direction) = bend.transmitted {
-                memory.turn(&event, flight.direction, false, tint, optics);
-                flight = transmitted(&event, direction);
-            } else {
-                chain.total_reflections += 1;
-                flight = reflected(&event, &bend);
-                if let Some(again) = memory.total_reflection(optics) {
-                    (flight, tint) = again;
-                    chain.flags |= flag::GEOMETRIC_NORMAL;
-                }
+            };
+            chain.total_reflections += u32::from(fork.is_total());
+            let again = path.go_on(&fork, Side::Transmitted, optics);
+            if fork.bend.geometric || again {
+                chain.flags |= flag::GEOMETRIC_NORMAL;
             }
             match chain.events {
-                1 => chain.first = flight.direction,
-                2 => chain.hit2 = flight.origin,
+                1 => chain.first = path.flight.direction,
+                2 => chain.hit2 = path.flight.origin,
                 _ => {}
             }
+        }
+    }
+
+    /// What a chain brings from where it ends.
+    fn end<W: Winding, const UNIFORM: bool>(
+        &self,
+        chain: &mut Chain,
+        path: &Path<W, ()>,
+        met: &Met<W>,
+    ) {
+        let (flight, tint) = (&path.flight, path.so_far.tint);
+        match met {
+            Met::Environment => {
+                chain.radiance = tint * self.environment::<UNIFORM>(flight.direction);
+                if chain.events > 0 {
+                    (chain.exit, chain.exit_position) = (flight.direction, flight.origin);
+                }
+            }
+            Met::Opaque(crossing) => chain.radiance = tint * self.shade(flight, crossing),
+            Met::OneTooMany => chain.flags |= flag::CAP | flag::LOST,
+            Met::Boundary(_) => {}
         }
     }
 }

@@ -5,21 +5,21 @@ use crate::optics::bend::{Bend, bend, through_gap};
 use crate::request::Fresnel;
 use crate::world::World;
 use crate::world::crossing::Departed;
-use crate::world::short_way::{Event, Flight, Indices, Start};
-use crate::world::winding::Media;
+use crate::world::flight::{Event, Flight, Start};
+use crate::world::winding::{Indices, Winding};
 use glam::DVec3;
 use scenes::{MediumId, Scene};
 
 /// Indices for one wavelength, and absorption.
 #[derive(Clone, Debug)]
-pub(crate) struct Optics {
+pub(crate) struct MediaOptics {
     pub(crate) indices: Indices,
     /// Per medium, per metre.
     pub(crate) absorption: Vec<DVec3>,
     pub(crate) fresnel: Fresnel,
 }
 
-impl Optics {
+impl MediaOptics {
     pub(crate) fn new(scene: &Scene, world: &World, wavelength_um: f64, fresnel: Fresnel) -> Self {
         let classes = world.classes.iter().map(|class| class.medium);
         let medium: Vec<MediumId> = classes.chain([MediumId::SURROUNDINGS]).collect();
@@ -36,7 +36,7 @@ impl Optics {
     }
 
     /// What an event does to a ray of this direction.
-    pub(crate) fn bend<M: Media>(&self, direction: DVec3, event: &Event<M>) -> Bend {
+    pub(crate) fn bend<W: Winding>(&self, direction: DVec3, event: &Event<W>) -> Bend {
         let sides = [self.indices.eta(&event.before), self.indices.eta(&event.after)];
         if event.gap {
             return through_gap(direction, event.spot.normals, event.entering, sides[0]);
@@ -44,30 +44,39 @@ impl Optics {
         bend(direction, event.spot.normals, event.entering, sides, self.fresnel)
     }
 
-    /// Transmittance of the pieces of a path, per channel.
-    pub(crate) fn transmittance(&self, pieces: &[(MediumId, f64)]) -> DVec3 {
-        let depth = pieces.iter().fold(DVec3::ZERO, |sum, (medium, length)| {
+    /// Transmittance of the stretches of a path, per channel.
+    pub(crate) fn transmittance(&self, stretches: &[(MediumId, f64)]) -> DVec3 {
+        let depth = stretches.iter().fold(DVec3::ZERO, |sum, (medium, length_m)| {
             let per_m = self.absorption.get(usize::from(medium.0)).copied().unwrap_or_default();
             // Zero times an infinite length is nothing absorbed.
-            sum + DVec3::select(per_m.cmpeq(DVec3::ZERO), DVec3::ZERO, per_m * *length)
+            sum + DVec3::select(per_m.cmpeq(DVec3::ZERO), DVec3::ZERO, per_m * *length_m)
         });
         DVec3::from_array((-depth).to_array().map(f64::exp))
     }
 }
 
-/// The reflected continuation of a ray.
-pub(crate) fn reflected<M: Media>(event: &Event<M>, bend: &Bend) -> Flight<M> {
-    go_on(event, bend.reflected, event.before.clone(), !event.entering)
+/// Sides of a boundary to go on at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Side {
+    Reflected,
+    /// There is none under total reflection.
+    Transmitted,
 }
 
-/// The transmitted continuation of a ray.
-pub(crate) fn transmitted<M: Media>(event: &Event<M>, direction: DVec3) -> Flight<M> {
-    go_on(event, direction, event.after.clone(), event.entering)
+/// How a ray goes on at one side of a boundary; under total reflection it is
+/// reflected whatever the side.
+pub(crate) fn continuation<W: Winding>(event: &Event<W>, bend: &Bend, side: Side) -> Flight<W> {
+    match bend.transmitted {
+        Some(direction) if side == Side::Transmitted => {
+            go_on(event, direction, event.after.clone(), event.entering)
+        }
+        _ => go_on(event, bend.reflected, event.before.clone(), !event.entering),
+    }
 }
 
-fn go_on<M: Media>(event: &Event<M>, direction: DVec3, media: M, inside: bool) -> Flight<M> {
+fn go_on<W: Winding>(event: &Event<W>, direction: DVec3, winding: W, inside: bool) -> Flight<W> {
     let clear = event.single && event.spot.is_clear(direction);
     let departed = Departed { id: event.id, inside };
     let start = if clear { Start::Surface(departed) } else { Start::Unclear };
-    Flight { origin: event.spot.position, direction, start, media }
+    Flight { origin: event.spot.position, direction, start, winding }
 }

@@ -3,9 +3,11 @@
 pub(crate) mod branching;
 pub(crate) mod chain;
 pub(crate) mod media_optics;
-pub(crate) mod opaque_surface;
-pub(crate) mod polarised_tree;
-pub(crate) mod restart;
+mod opaque_surface;
+pub(crate) mod path;
+mod polarised_tree;
+mod restart;
 pub(crate) mod spectrum;
 pub(crate) mod tracer;
 pub(crate) mod tree;
+pub(crate) mod variant;

@@ -6,14 +6,14 @@
 
 use crate::transport::tracer::Tracer;
 use crate::world::crossing::Crossing;
-use crate::world::short_way::Flight;
+use crate::world::flight::Flight;
 use glam::DVec3;
 use scenes::Surface;
 use scenes::scene::{Light, Paint};
 
 impl Tracer<'_> {
     /// Radiance of an opaque surface towards the ray that meets it.
-    pub(crate) fn shade<M>(&self, flight: &Flight<M>, crossing: &Crossing) -> DVec3 {
+    pub(crate) fn shade<W>(&self, flight: &Flight<W>, crossing: &Crossing) -> DVec3 {
         let body = &self.world.bodies[crossing.body as usize];
         let spot = self.world.spot(crossing);
         let here = body.object_from_world.transform_point3(spot.position);

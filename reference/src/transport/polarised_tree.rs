@@ -5,13 +5,15 @@
 //! the Mueller matrix from its end to the camera, and unpolarised light at its
 //! end arrives as the matrix's first column.
 
+use super::branching::{Cut, Policy};
+use super::media_optics::{MediaOptics, Side};
+use super::path::{Fork, Met, Path};
+use super::tracer::Tracer;
 use crate::optics::interface::amplitudes;
 use crate::optics::mueller::{Boundary, across, restate};
-use crate::transport::branching::{Cut, Policy};
-use crate::transport::media_optics::{Optics, reflected, transmitted};
-use crate::transport::tracer::Tracer;
-use crate::world::short_way::{End, Event, Flight, Scratch};
-use crate::world::winding::Media;
+use crate::world::flight::Flight;
+use crate::world::scratch::Scratch;
+use crate::world::winding::Winding;
 use glam::{DMat4, DVec3, DVec4};
 
 /// Light of a tree at the camera.
@@ -25,107 +27,128 @@ pub(crate) struct Stokes {
     pub(crate) met: bool,
 }
 
-/// A continuation.
-struct Branch<M> {
-    flight: Flight<M>,
+/// What a path does to polarised light.
+#[derive(Clone, Copy, Debug)]
+struct Polarisation {
     /// Stokes vector at the camera from the one here, for `axis`.
     mueller: DMat4,
+    /// Unit, across the ray.
     axis: DVec3,
-    tint: DVec3,
-    events: u32,
+}
+
+/// A continuation.
+type PolarisedPath<W> = Path<W, Polarisation>;
+
+/// What a tree drops.
+#[derive(Clone, Copy)]
+struct Dropping {
+    cut: Cut,
+    /// Reflections off the inside of a body are kept.
+    internal: bool,
 }
 
 impl Tracer<'_> {
     /// Sums the tree below a camera ray.
     ///
     /// `axis`: unit, across the ray; the axis that the sum refers to.
-    pub(crate) fn polarised_tree<M: Media, const UNIFORM: bool, const LENGTHS: bool>(
+    pub(crate) fn polarised_tree<W: Winding, const UNIFORM: bool, const LENGTHS: bool>(
         &self,
-        flight: Flight<M>,
+        flight: Flight<W>,
         axis: DVec3,
-        optics: &Optics,
+        optics: &MediaOptics,
         cut: Cut,
         scratch: &mut Scratch,
     ) -> Stokes {
         let mut sum = Stokes::default();
-        let (mueller, tint) = (DMat4::IDENTITY, DVec3::ONE);
-        let mut waiting = vec![Branch { flight, mueller, axis, tint, events: 0 }];
-        let interfaces = self.restriction.max_interfaces.unwrap_or(u32::MAX);
-        while let Some(mut branch) = waiting.pop() {
-            let end = if branch.events >= interfaces {
-                End::Environment
-            } else {
-                self.world.follow::<M, LENGTHS>(&branch.flight, &optics.indices, scratch)
-            };
-            if LENGTHS {
-                branch.tint *= optics.transmittance(&scratch.pieces);
-            }
-            sum.met |= branch.events == 0 && !matches!(end, End::Environment);
-            let light = match end {
-                End::Event(event) => {
-                    scratch.counters.events += 1;
-                    if branch.events >= self.restriction.max_events {
-                        sum.truncated += branch.mueller.x_axis.x * branch.tint.max_element();
-                        scratch.counters.capped += 1;
-                    } else {
-                        let internal = self.restriction.internal_reflection || event.entering;
-                        let lost = turn(&branch, &event, optics, (cut, internal), &mut waiting);
-                        sum.truncated += lost;
-                    }
+        let dropping = Dropping { cut, internal: self.restriction.internal_reflection };
+        let start = Polarisation { mueller: DMat4::IDENTITY, axis };
+        let mut waiting = vec![Path::new(flight, start)];
+        while let Some(mut path) = waiting.pop() {
+            let first = path.so_far.events == 0;
+            let met = self.meet::<W, _, LENGTHS>(&mut path, optics, scratch);
+            sum.met |= first && !matches!(met, Met::Environment);
+            let mueller = path.so_far.own.mueller;
+            let light = match met {
+                Met::Boundary(fork) => {
+                    sum.truncated += branch(&path, &fork, optics, dropping, &mut waiting);
                     continue;
                 }
-                End::Environment => self.environment::<UNIFORM>(branch.flight.direction),
-                End::Opaque(crossing) => self.shade(&branch.flight, &crossing),
+                Met::OneTooMany => {
+                    sum.truncated += mueller.x_axis.x * path.so_far.tint.max_element();
+                    continue;
+                }
+                Met::Environment => self.environment::<UNIFORM>(path.flight.direction),
+                Met::Opaque(crossing) => self.shade(&path.flight, &crossing),
             };
             for channel in 0..3 {
-                let strength = light[channel] * branch.tint[channel];
-                sum.channels[channel] += branch.mueller.x_axis * strength;
+                let strength = light[channel] * path.so_far.tint[channel];
+                sum.channels[channel] += mueller.x_axis * strength;
             }
         }
         sum
     }
 }
 
-/// Takes a branch over an event; the weight that was dropped.
-fn turn<M: Media>(
-    branch: &Branch<M>,
-    event: &Event<M>,
-    optics: &Optics,
-    (mut cut, internal): (Cut, bool),
-    waiting: &mut Vec<Branch<M>>,
+/// Takes a path over a boundary; the weight that was dropped.
+fn branch<W: Winding>(
+    path: &PolarisedPath<W>,
+    fork: &Fork<W>,
+    optics: &MediaOptics,
+    mut dropping: Dropping,
+    waiting: &mut Vec<PolarisedPath<W>>,
 ) -> f64 {
-    let d = branch.flight.direction;
-    let bend = optics.bend(d, event);
-    let normals = event.spot.normals;
-    let normal = if bend.geometric { normals.geometric } else { normals.shading };
-    let [here, beyond] = [&event.before, &event.after].map(|media| optics.indices.eta(media));
-    let cos_i = d.dot(normal).abs().min(1.0);
-    let boundary = if event.gap {
-        Boundary::gap(amplitudes(cos_i, here, 1.0))
-    } else {
-        Boundary::surface(amplitudes(cos_i, here, beyond))
-    };
+    let (boundary, axis) = boundary(path.flight.direction, fork, optics);
+    let own = path.so_far.own;
     // Light arrives at the camera's side travelling against the ray.
-    let axis = across(d, normal);
-    let before = branch.mueller * restate(axis, branch.axis, -d);
+    let before = own.mueller * restate(axis, own.axis, -path.flight.direction);
     let back = before * boundary.reflected;
     let on = before * boundary.transmitted;
-    let continued = |flight: Flight<M>, mueller: DMat4| {
-        let (tint, events) = (branch.tint, branch.events + 1);
-        Branch { flight, mueller, axis, tint, events }
+    let mut go_on = |side: Side, mueller: DMat4| {
+        let mut next = path.clone();
+        next.so_far.own = Polarisation { mueller, axis };
+        if next.go_on(fork, side, optics) {
+            next.so_far.own.turn_to(next.flight.direction);
+        }
+        waiting.push(next);
     };
-    let Some(direction) = bend.transmitted else {
-        waiting.push(continued(reflected(event, &bend), back));
+    if fork.is_total() {
+        go_on(Side::Reflected, back);
         return 0.0;
-    };
+    }
+    let internal = dropping.internal || fork.event.entering;
     let weight = |mueller: DMat4| mueller.x_axis.x.max(0.0);
     let weights = [if internal { weight(back) } else { 0.0 }, weight(on)];
-    let choice = cut.choose(weights, branch.tint.max_element());
+    let choice = dropping.cut.choose(weights, path.so_far.tint.max_element());
     if choice.reflected > 0.0 {
-        waiting.push(continued(reflected(event, &bend), back));
+        go_on(Side::Reflected, back);
     }
     if choice.transmitted > 0.0 {
-        waiting.push(continued(transmitted(event, direction), on));
+        go_on(Side::Transmitted, on);
     }
     choice.lost
+}
+
+/// What a boundary does to polarised light of direction `d`, and the axis across
+/// the plane of incidence that this refers to.
+fn boundary<W: Winding>(d: DVec3, fork: &Fork<W>, optics: &MediaOptics) -> (Boundary, DVec3) {
+    let Fork { event, bend } = fork;
+    let normals = event.spot.normals;
+    let normal = if bend.geometric { normals.geometric } else { normals.shading };
+    let [eta_i, eta_t] = [&event.before, &event.after].map(|side| optics.indices.eta(side));
+    let cos_i = d.dot(normal).abs().min(1.0);
+    let boundary = if event.gap {
+        Boundary::gap(amplitudes(cos_i, eta_i, 1.0))
+    } else {
+        Boundary::surface(amplitudes(cos_i, eta_i, eta_t))
+    };
+    (boundary, across(d, normal))
+}
+
+impl Polarisation {
+    /// Keeps the matrix for a ray that goes another way than it was made for. The
+    /// axis is turned along, so that no light is gained or lost.
+    fn turn_to(&mut self, direction: DVec3) {
+        let across = self.axis - direction * self.axis.dot(direction);
+        self.axis = across.try_normalize().unwrap_or_else(|| direction.any_orthonormal_vector());
+    }
 }

@@ -6,80 +6,77 @@
 //! reflected [`PATIENCE`] times in a row therefore goes back to the event
 //! before and is followed from there with geometric normals, which do.
 
-use crate::optics::bend::Normals;
-use crate::transport::media_optics::{Optics, reflected, transmitted};
-use crate::world::short_way::{Event, Flight};
-use crate::world::winding::Media;
+use super::media_optics::{MediaOptics, Side, continuation};
+use crate::optics::bend::SurfaceNormals;
+use crate::world::flight::{Event, Flight};
+use crate::world::winding::Winding;
 use glam::DVec3;
 
 /// Total reflections in a row before a path starts again.
 const PATIENCE: u32 = 64;
 
 /// What a path needs to start again from its last event that was no total
-/// reflection.
+/// reflection. `T`: what it had come through behind that event.
 #[derive(Clone, Debug)]
-pub(crate) struct Memory<M> {
-    turn: Option<Turn<M>>,
+pub(crate) struct Restart<W, T> {
+    last: Option<Remembered<W, T>>,
     in_a_row: u32,
     /// The path has started again: geometric normals from now on.
     flat: bool,
 }
 
 #[derive(Clone, Debug)]
-struct Turn<M> {
-    event: Event<M>,
+struct Remembered<W, T> {
+    event: Event<W>,
     incoming: DVec3,
-    reflected: bool,
-    tint: DVec3,
+    side: Side,
+    so_far: T,
 }
 
-impl<M: Media> Memory<M> {
+impl<W: Winding, T: Clone> Restart<W, T> {
     pub(crate) fn new() -> Self {
-        Self { turn: None, in_a_row: 0, flat: false }
+        Self { last: None, in_a_row: 0, flat: false }
     }
 
     /// Takes the shading normal from an event if this path no longer uses it.
-    pub(crate) fn prepare(&self, event: &mut Event<M>) {
+    pub(crate) fn prepare(&self, event: &mut Event<W>) {
         if self.flat {
             let geometric = event.spot.normals.geometric;
-            event.spot.normals = Normals { geometric, shading: geometric };
+            event.spot.normals = SurfaceNormals { geometric, shading: geometric };
         }
     }
 
     /// Remembers an event that was no total reflection, unless the geometric
     /// normal would have made it one: from there no light comes from outside.
-    pub(crate) fn turn(
+    pub(crate) fn remember(
         &mut self,
-        event: &Event<M>,
+        event: &Event<W>,
         incoming: DVec3,
-        reflected: bool,
-        tint: DVec3,
-        optics: &Optics,
+        side: Side,
+        so_far: &T,
+        optics: &MediaOptics,
     ) {
         self.in_a_row = 0;
         let cosine = incoming.dot(event.spot.normals.geometric);
-        let sides = [optics.indices.eta(&event.before), optics.indices.eta(&event.after)];
-        let sine_beyond = sides[0] / sides[1] * (1.0 - cosine * cosine).max(0.0).sqrt();
+        let eta_i_over_t = optics.indices.eta(&event.before) / optics.indices.eta(&event.after);
+        let sine_beyond = eta_i_over_t * (1.0 - cosine * cosine).max(0.0).sqrt();
         if !self.flat && sine_beyond < 1.0 {
-            self.turn = Some(Turn { event: event.clone(), incoming, reflected, tint });
+            let (event, so_far) = (event.clone(), so_far.clone());
+            self.last = Some(Remembered { event, incoming, side, so_far });
         }
     }
 
     /// Counts a total reflection. After too many: the path from where it starts
-    /// again, and its transmittance there.
-    pub(crate) fn total_reflection(&mut self, optics: &Optics) -> Option<(Flight<M>, DVec3)> {
+    /// again, and what it had come through there.
+    pub(crate) fn total_reflection(&mut self, optics: &MediaOptics) -> Option<(Flight<W>, T)> {
         self.in_a_row += 1;
         if self.flat || self.in_a_row < PATIENCE {
             return None;
         }
         self.flat = true;
-        let Turn { mut event, incoming, reflected: back, tint } = self.turn.take()?;
+        let Remembered { mut event, incoming, side, so_far } = self.last.take()?;
         self.prepare(&mut event);
         let bend = optics.bend(incoming, &event);
-        let flight = match bend.transmitted {
-            Some(direction) if !back => transmitted(&event, direction),
-            _ => reflected(&event, &bend),
-        };
-        Some((flight, tint))
+        Some((continuation(&event, &bend, side), so_far))
     }
 }

@@ -1,8 +1,8 @@
-//! The waves that stand for light: one where nothing disperses, one per colour
+//! The wavelengths that stand for light: one where nothing disperses, one per colour
 //! channel, or many across the visible spectrum.
 
 use crate::request::{Restriction, Spectrum};
-use crate::transport::media_optics::Optics;
+use crate::transport::media_optics::MediaOptics;
 use crate::world::World;
 use glam::{DMat3, DVec3};
 use scenes::Scene;
@@ -10,13 +10,13 @@ use scenes::medium::RGB_WAVELENGTH_UM;
 
 /// Light of one wavelength.
 #[derive(Clone, Debug)]
-pub(crate) struct Wave {
-    pub(crate) optics: Optics,
-    /// Linear R, G, B that reach the image, from those that the wave brings.
+pub(crate) struct Wavelength {
+    pub(crate) optics: MediaOptics,
+    /// Linear R, G, B that reach the image, from those that it brings.
     pub(crate) share: DMat3,
 }
 
-/// What the waves bring, added up.
+/// What wavelengths bring, added up.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Total {
     pub(crate) radiance: DVec3,
@@ -24,8 +24,8 @@ pub(crate) struct Total {
     truncated: DVec3,
 }
 
-impl Wave {
-    /// The waves of a scene. Their shares add up to the identity, so that a scene
+impl Wavelength {
+    /// The wavelengths of a scene. Their shares add up to the identity, so that a scene
     /// without dispersion would look the same with any of them.
     pub(crate) fn all(
         scene: &Scene,
@@ -33,26 +33,26 @@ impl Wave {
         spectrum: Spectrum,
         restriction: &Restriction,
     ) -> Vec<Self> {
-        let wave = |wavelength_um, share| Self {
-            optics: Optics::new(scene, world, wavelength_um, restriction.fresnel),
+        let one = |wavelength_um, share| Self {
+            optics: MediaOptics::new(scene, world, wavelength_um, restriction.fresnel),
             share,
         };
         if !scene.media.iter().any(scenes::Medium::is_dispersive) {
-            return vec![wave(D_LINE_UM, DMat3::IDENTITY)];
+            return vec![one(D_LINE_UM, DMat3::IDENTITY)];
         }
         match spectrum {
             Spectrum::Channels => {
                 let lines = RGB_WAVELENGTH_UM.into_iter().zip(DMat3::IDENTITY.to_cols_array_2d());
                 let share = |axis| DMat3::from_diagonal(DVec3::from_array(axis));
-                lines.map(|(line, axis)| wave(line, share(axis))).collect()
+                lines.map(|(line, axis)| one(line, share(axis))).collect()
             }
             Spectrum::Wavelengths(count) => {
-                shares(count).into_iter().map(|(line, share)| wave(line, share)).collect()
+                shares(count).into_iter().map(|(line, share)| one(line, share)).collect()
             }
         }
     }
 
-    /// Adds what this wave brings.
+    /// Adds what this one brings.
     pub(crate) fn add(&self, brings: DVec3, truncated: f64, total: &mut Total) {
         total.radiance += self.share * brings;
         let rows = self.share.transpose().to_cols_array_2d().map(DVec3::from_array);

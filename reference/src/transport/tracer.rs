@@ -2,11 +2,12 @@
 
 use crate::receiver::map::CausticMap;
 use crate::request::{EnvironmentLookup, Request, Restriction};
-use crate::transport::media_optics::Optics;
-use crate::transport::spectrum::{D_LINE_UM, Wave};
+use crate::transport::media_optics::MediaOptics;
+use crate::transport::spectrum::{D_LINE_UM, Wavelength};
 use crate::world::World;
-use crate::world::short_way::{Flight, Scratch, Start};
-use crate::world::winding::{Counts, Media};
+use crate::world::flight::{Flight, Start};
+use crate::world::scratch::Scratch;
+use crate::world::winding::{Counts, Winding};
 use glam::DVec3;
 use scenes::{Camera, Environment, Projection, Ray, Scene};
 
@@ -16,9 +17,9 @@ pub(crate) struct Tracer<'a> {
     pub(crate) scene: &'a Scene,
     pub(crate) world: &'a World,
     /// At the wavelength of indices: what chains follow.
-    pub(crate) d_line: Optics,
+    pub(crate) d_line: MediaOptics,
     /// What light is made of; one where nothing disperses.
-    pub(crate) waves: Vec<Wave>,
+    pub(crate) wavelengths: Vec<Wavelength>,
     pub(crate) restriction: Restriction,
     pub(crate) lookup: EnvironmentLookup,
     /// Winding counts at the eye, if all rays start there.
@@ -41,20 +42,20 @@ impl Tracer<'_> {
     }
 
     /// A ray from the camera, which may stand inside a body.
-    pub(crate) fn launch<M: Media>(&self, ray: Ray, scratch: &mut Scratch) -> Flight<M> {
+    pub(crate) fn launch<W: Winding>(&self, ray: Ray, scratch: &mut Scratch) -> Flight<W> {
         let [low, high] = self.world.bounds;
-        let mut media = M::outside();
+        let mut winding = W::outside();
         if ray.origin.cmpge(low).all() && ray.origin.cmple(high).all() {
             match &self.eye_counts {
-                None => media = self.world.media_at(ray.origin, scratch),
+                None => winding = self.world.winding_at(ray.origin, scratch),
                 Some(counts) => {
                     for (class, count) in counts.iter().enumerate() {
-                        media.set(class, *count);
+                        winding.set(class, *count);
                     }
                 }
             }
         }
-        Flight { origin: ray.origin, direction: ray.direction, start: Start::Free, media }
+        Flight { origin: ray.origin, direction: ray.direction, start: Start::Free, winding }
     }
 }
 
@@ -67,14 +68,14 @@ impl<'a> Tracer<'a> {
         request: &'a Request,
     ) -> Self {
         let restriction = request.restriction;
-        let d_line = Optics::new(scene, world, D_LINE_UM, restriction.fresnel);
-        let waves = Wave::all(scene, world, request.spectrum, &restriction);
+        let d_line = MediaOptics::new(scene, world, D_LINE_UM, restriction.fresnel);
+        let wavelengths = Wavelength::all(scene, world, request.spectrum, &restriction);
         let eye_counts = matches!(camera.projection, Projection::Perspective { .. }).then(|| {
-            let media: Counts<256> = world.media_at(camera.eye, &mut Scratch::default());
-            (0..world.classes.len()).map(|class| media.get(class)).collect()
+            let winding: Counts<256> = world.winding_at(camera.eye, &mut Scratch::default());
+            (0..world.classes.len()).map(|class| winding.get(class)).collect()
         });
         let lookup = request.environment_lookup;
         let caustics = request.caustics.as_deref();
-        Self { scene, world, d_line, waves, restriction, lookup, eye_counts, caustics }
+        Self { scene, world, d_line, wavelengths, restriction, lookup, eye_counts, caustics }
     }
 }

@@ -3,24 +3,21 @@
 //! At every event a policy decides what is followed; the stronger continuation
 //! goes on and the weaker one waits on a stack.
 
-use crate::transport::branching::Policy;
-use crate::transport::media_optics::{Optics, reflected, transmitted};
-use crate::transport::restart::Memory;
-use crate::transport::tracer::Tracer;
-use crate::world::short_way::{End, Event, Flight, Scratch};
-use crate::world::winding::Media;
+use super::branching::Policy;
+use super::media_optics::{MediaOptics, Side};
+use super::path::{Fork, Met, Path};
+use super::tracer::Tracer;
+use crate::world::flight::Flight;
+use crate::world::scratch::Scratch;
+use crate::world::winding::Winding;
 use glam::DVec3;
 
-/// A continuation that waits.
+/// A continuation.
 #[derive(Clone, Debug)]
-pub(crate) struct Branch<M> {
-    flight: Flight<M>,
+pub(crate) struct Branch<W> {
+    path: Path<W, ()>,
     /// Product of the shares taken at every event.
     weight: f64,
-    /// Transmittance so far.
-    tint: DVec3,
-    events: u32,
-    memory: Memory<M>,
 }
 
 /// Sum over a tree.
@@ -34,121 +31,102 @@ pub(crate) struct Sum {
 }
 
 /// Everything a tree is followed with.
-pub(crate) struct Climb<'a, M, P> {
-    pub(crate) optics: &'a Optics,
+pub(crate) struct Climb<'a, W, P> {
+    pub(crate) optics: &'a MediaOptics,
     pub(crate) policy: P,
     /// Continuations that wait, kept between trees for its memory.
-    pub(crate) waiting: &'a mut Vec<Branch<M>>,
+    pub(crate) waiting: &'a mut Vec<Branch<W>>,
     pub(crate) scratch: &'a mut Scratch,
     /// Radiance by number of interfaces, as far as asked for.
     pub(crate) bounces: &'a mut [DVec3],
 }
 
+impl<W: Winding> Branch<W> {
+    /// Transmittance so far, 0 to 1; 1 where nothing absorbs.
+    fn present<const LENGTHS: bool>(&self) -> f64 {
+        if LENGTHS { self.path.so_far.tint.max_element() } else { 1.0 }
+    }
+
+    fn go_on(mut self, fork: &Fork<W>, side: Side, weight: f64, optics: &MediaOptics) -> Self {
+        self.path.go_on(fork, side, optics);
+        Self { weight, ..self }
+    }
+}
+
 impl Tracer<'_> {
     /// Sums the tree below a camera ray.
-    pub(crate) fn tree<M: Media, P: Policy, const UNIFORM: bool, const LENGTHS: bool>(
+    pub(crate) fn tree<W: Winding, P: Policy, const UNIFORM: bool, const LENGTHS: bool>(
         &self,
-        flight: Flight<M>,
-        climb: &mut Climb<'_, M, P>,
+        flight: Flight<W>,
+        climb: &mut Climb<'_, W, P>,
     ) -> Sum {
         let mut sum = Sum::default();
         climb.waiting.clear();
-        let (tint, memory) = (DVec3::ONE, Memory::new());
-        let mut next = Some(Branch { flight, weight: 1.0, tint, events: 0, memory });
+        let mut next = Some(Branch { path: Path::new(flight, ()), weight: 1.0 });
         while let Some(branch) = next.or_else(|| climb.waiting.pop()) {
-            next = self.step::<M, P, UNIFORM, LENGTHS>(branch, climb, &mut sum);
+            next = self.step::<W, P, UNIFORM, LENGTHS>(branch, climb, &mut sum);
         }
         sum
     }
 
     /// Follows a branch to its next event and over it; `None` where it ends.
     #[inline(always)]
-    fn step<M: Media, P: Policy, const UNIFORM: bool, const LENGTHS: bool>(
+    fn step<W: Winding, P: Policy, const UNIFORM: bool, const LENGTHS: bool>(
         &self,
-        mut branch: Branch<M>,
-        climb: &mut Climb<'_, M, P>,
+        mut branch: Branch<W>,
+        climb: &mut Climb<'_, W, P>,
         sum: &mut Sum,
-    ) -> Option<Branch<M>> {
-        let interfaces = self.restriction.max_interfaces.unwrap_or(u32::MAX);
-        let end = if branch.events >= interfaces {
-            End::Environment
-        } else {
-            let indices = &climb.optics.indices;
-            self.world.follow::<M, LENGTHS>(&branch.flight, indices, climb.scratch)
+    ) -> Option<Branch<W>> {
+        let before = branch.path.so_far.events;
+        let met = self.meet::<W, _, LENGTHS>(&mut branch.path, climb.optics, climb.scratch);
+        sum.met |= before == 0 && !matches!(met, Met::Environment);
+        let light = match met {
+            Met::Boundary(fork) => {
+                return self.branch::<W, P, LENGTHS>(branch, &fork, climb, sum);
+            }
+            Met::OneTooMany => {
+                sum.truncated += branch.weight * branch.present::<LENGTHS>();
+                return None;
+            }
+            Met::Environment => self.environment::<UNIFORM>(branch.path.flight.direction),
+            Met::Opaque(crossing) => self.shade(&branch.path.flight, &crossing),
         };
-        if LENGTHS {
-            branch.tint *= climb.optics.transmittance(&climb.scratch.pieces);
-        }
-        sum.met |= branch.events == 0 && !matches!(end, End::Environment);
-        let light = match end {
-            End::Event(event) => return self.turn::<M, P, LENGTHS>(branch, event, climb, sum),
-            End::Environment => self.environment::<UNIFORM>(branch.flight.direction),
-            End::Opaque(crossing) => self.shade(&branch.flight, &crossing),
-        };
-        let light = light * branch.tint * branch.weight;
+        let light = light * branch.path.so_far.tint * branch.weight;
         sum.radiance += light;
-        if let Some(bounce) = climb.bounces.get_mut(branch.events as usize) {
+        if let Some(bounce) = climb.bounces.get_mut(before as usize) {
             *bounce += light;
         }
         None
     }
 
-    /// Takes a branch over an event: the stronger continuation, if any.
+    /// Takes a branch over a boundary: the stronger continuation, if any.
     #[inline(always)]
-    fn turn<M: Media, P: Policy, const LENGTHS: bool>(
+    fn branch<W: Winding, P: Policy, const LENGTHS: bool>(
         &self,
-        mut branch: Branch<M>,
-        mut event: Event<M>,
-        climb: &mut Climb<'_, M, P>,
+        branch: Branch<W>,
+        fork: &Fork<W>,
+        climb: &mut Climb<'_, W, P>,
         sum: &mut Sum,
-    ) -> Option<Branch<M>> {
-        let optics = climb.optics;
-        branch.memory.prepare(&mut event);
-        let bend = optics.bend(branch.flight.direction, &event);
-        branch.events += 1;
-        climb.scratch.counters.events += 1;
-        let present = if LENGTHS { branch.tint.max_element() } else { 1.0 };
-        if branch.events > self.restriction.max_events {
-            sum.truncated += branch.weight * present;
-            climb.scratch.counters.capped += 1;
-            return None;
-        }
-        let Some(direction) = bend.transmitted else {
+    ) -> Option<Branch<W>> {
+        let (optics, weight) = (climb.optics, branch.weight);
+        let present = branch.present::<LENGTHS>();
+        if fork.is_total() {
             // Nothing to choose, and a path that starts again needs its weight:
             // only what is too faint for any sum ends here.
-            branch.flight = reflected(&event, &bend);
-            if let Some((flight, tint)) = branch.memory.total_reflection(optics) {
-                (branch.flight, branch.tint) = (flight, tint);
-            }
-            return (branch.weight * present >= f64::MIN_POSITIVE).then_some(branch);
-        };
-        let dropped = !event.entering && !self.restriction.internal_reflection;
-        let reflectance = if dropped { 0.0 } else { bend.reflectance };
-        let weights = [branch.weight * reflectance, branch.weight * (1.0 - bend.reflectance)];
-        let choice = climb.policy.choose(weights, present);
-        sum.truncated += choice.lost;
-        let incoming = branch.flight.direction;
-        let continued = |back: bool, weight: f64| {
-            let mut memory = branch.memory.clone();
-            memory.turn(&event, incoming, back, branch.tint, optics);
-            let flight =
-                if back { reflected(&event, &bend) } else { transmitted(&event, direction) };
-            Branch { flight, weight, tint: branch.tint, events: branch.events, memory }
-        };
-        let (back, on) = (choice.reflected, choice.transmitted);
-        match (back > 0.0, on > 0.0) {
-            (true, true) => {
-                let [weak, strong] = if back <= on {
-                    [(true, back), (false, on)]
-                } else {
-                    [(false, on), (true, back)]
-                };
-                climb.waiting.push(continued(weak.0, weak.1));
-                Some(continued(strong.0, strong.1))
-            }
-            (true, false) => Some(continued(true, back)),
-            (false, true) => Some(continued(false, on)),
-            (false, false) => None,
+            let next = branch.go_on(fork, Side::Reflected, weight, optics);
+            return (weight * present >= f64::MIN_POSITIVE).then_some(next);
         }
+        let reflectance = fork.bend.reflectance;
+        let dropped = !fork.event.entering && !self.restriction.internal_reflection;
+        let back = if dropped { 0.0 } else { reflectance };
+        let choice = climb.policy.choose([weight * back, weight * (1.0 - reflectance)], present);
+        sum.truncated += choice.lost;
+        let back = (Side::Reflected, choice.reflected);
+        let on = (Side::Transmitted, choice.transmitted);
+        let [weak, strong] = if back.1 <= on.1 { [back, on] } else { [on, back] };
+        if weak.1 > 0.0 {
+            climb.waiting.push(branch.clone().go_on(fork, weak.0, weak.1, optics));
+        }
+        (strong.1 > 0.0).then(|| branch.go_on(fork, strong.0, strong.1, optics))
     }
 }

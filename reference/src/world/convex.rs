@@ -1,7 +1,7 @@
 //! Whether a scene is one convex body, so that a ray that has left it is free.
 
+use super::World;
 use crate::geometry::triangle::Triangle;
-use crate::world::World;
 use glam::DVec3;
 use scenes::Shape;
 use std::collections::HashMap;

@@ -2,7 +2,7 @@
 
 use crate::geometry::bvh::{Query, Stack, TriangleHit};
 use crate::geometry::line::{Line, ROUNDING};
-use crate::optics::bend::Normals;
+use crate::optics::bend::SurfaceNormals;
 use crate::world::{Body, World};
 use glam::DVec3;
 use scenes::noise::bumped;
@@ -16,11 +16,11 @@ pub(crate) struct Crossing {
     pub(crate) id: u32,
     pub(crate) body: u32,
     pub(crate) entering: bool,
-    place: Place,
+    surface: OnSurface,
 }
 
 #[derive(Clone, Copy, Debug)]
-enum Place {
+enum OnSurface {
     Triangle { slot: u32, weights: [f64; 3] },
     Analytic { point: DVec3, normal: DVec3 },
 }
@@ -29,7 +29,7 @@ enum Place {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Spot {
     pub(crate) position: DVec3,
-    pub(crate) normals: Normals,
+    pub(crate) normals: SurfaceNormals,
     /// Distance to the nearest edge of the triangle; infinite where there is none.
     pub(crate) margin: f64,
 }
@@ -54,8 +54,8 @@ pub(crate) struct Next {
 impl Crossing {
     fn of_triangle(hit: TriangleHit) -> Self {
         let (pierce, slot) = (hit.pierce, hit.slot);
-        let place = Place::Triangle { slot, weights: pierce.weights };
-        Self { t: pierce.t, id: hit.id, body: hit.body, entering: pierce.entering, place }
+        let surface = OnSurface::Triangle { slot, weights: pierce.weights };
+        Self { t: pierce.t, id: hit.id, body: hit.body, entering: pierce.entering, surface }
     }
 
     /// Order along the line; ties go to the smaller number.
@@ -98,7 +98,7 @@ impl World {
                     id: analytic.id + side as u32,
                     body: analytic.body,
                     entering: side == 0,
-                    place: Place::Analytic { point, normal },
+                    surface: OnSurface::Analytic { point, normal },
                 };
                 // Its own far side too is passed only once.
                 if crossing.t.is_finite() && crossing.key() > after {
@@ -116,9 +116,9 @@ impl World {
         for analytic in self.analytic.iter().filter(|analytic| !analytic.is_passed_by(line)) {
             for (side, touch) in analytic.chord(line).into_iter().flatten().enumerate() {
                 let (t, point, normal) = touch;
-                let place = Place::Analytic { point, normal };
+                let surface = OnSurface::Analytic { point, normal };
                 let (id, body) = (analytic.id + side as u32, analytic.body);
-                into.push(Crossing { t, id, body, entering: side == 0, place });
+                into.push(Crossing { t, id, body, entering: side == 0, surface });
             }
         }
         into.sort_unstable_by(|a, b| a.t.total_cmp(&b.t).then(a.id.cmp(&b.id)));
@@ -126,9 +126,9 @@ impl World {
 
     /// Cosine between a line and the surface's normal at a crossing, ≥ 0.
     pub(crate) fn cosine(&self, line: &Line, crossing: &Crossing) -> f64 {
-        let normal = match crossing.place {
-            Place::Triangle { slot, .. } => self.tree.triangle(slot).normal(),
-            Place::Analytic { normal, .. } => normal,
+        let normal = match crossing.surface {
+            OnSurface::Triangle { slot, .. } => self.tree.triangle(slot).normal(),
+            OnSurface::Analytic { normal, .. } => normal,
         };
         line.direction.dot(normal).abs()
     }
@@ -136,9 +136,9 @@ impl World {
     /// What the surface is like at a crossing.
     pub(crate) fn spot(&self, crossing: &Crossing) -> Spot {
         let body = &self.bodies[crossing.body as usize];
-        let (position, geometric, margin, mut shading) = match crossing.place {
-            Place::Analytic { point, normal } => (point, normal, f64::INFINITY, normal),
-            Place::Triangle { slot, weights } => {
+        let (position, geometric, margin, mut shading) = match crossing.surface {
+            OnSurface::Analytic { point, normal } => (point, normal, f64::INFINITY, normal),
+            OnSurface::Triangle { slot, weights } => {
                 let triangle = self.tree.triangle(slot);
                 let (geometric, margin) = triangle.normal_and_margin(weights);
                 let shading = body.smooth.as_ref().map_or(geometric, |smooth| {
@@ -151,7 +151,7 @@ impl World {
         if let Some(bump) = &body.bump {
             shading = body.tilted(bump, position, shading);
         }
-        Spot { position, normals: Normals { geometric, shading }, margin }
+        Spot { position, normals: SurfaceNormals { geometric, shading }, margin }
     }
 }
 

@@ -4,8 +4,10 @@
 //! count, so overlapping parts of one glass are one glass. Classes are sorted
 //! by precedence: the first with a positive count says what is there.
 
-/// State of a ray between surfaces.
-pub(crate) trait Media: Clone {
+use scenes::MediumId;
+
+/// What a ray is inside of, between surfaces.
+pub(crate) trait Winding: Clone {
     /// There is one body and it is convex: outside of it nothing can be hit
     /// again.
     const CONVEX: bool;
@@ -28,9 +30,9 @@ pub(crate) trait Media: Clone {
 
 /// One convex body: in it or not.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Inside(bool);
+pub(crate) struct InOrOut(bool);
 
-impl Media for Inside {
+impl Winding for InOrOut {
     const CONVEX: bool = true;
 
     fn outside() -> Self {
@@ -58,7 +60,7 @@ impl Media for Inside {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Counts<const N: usize>([i16; N]);
 
-impl<const N: usize> Media for Counts<N> {
+impl<const N: usize> Winding for Counts<N> {
     const CONVEX: bool = false;
 
     fn outside() -> Self {
@@ -79,5 +81,29 @@ impl<const N: usize> Media for Counts<N> {
 
     fn is_outside(&self) -> bool {
         self.0.iter().all(|count| *count == 0)
+    }
+}
+
+/// Indices of refraction by class, the surroundings last.
+#[derive(Clone, Debug)]
+pub(crate) struct Indices {
+    pub(crate) eta: Vec<f64>,
+    pub(crate) medium: Vec<MediumId>,
+}
+
+impl Indices {
+    /// Where in the lists a place is.
+    fn of<W: Winding>(&self, winding: &W) -> usize {
+        winding.top().unwrap_or(self.eta.len() - 1)
+    }
+
+    /// The absolute index of refraction of a place.
+    pub(crate) fn eta<W: Winding>(&self, winding: &W) -> f64 {
+        self.eta[self.of(winding)]
+    }
+
+    /// What a place is made of.
+    pub(crate) fn medium<W: Winding>(&self, winding: &W) -> MediumId {
+        self.medium[self.of(winding)]
     }
 }

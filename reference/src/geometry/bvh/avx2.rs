@@ -1,8 +1,8 @@
-//! The inner loops in AVX2 and AVX-512, chosen when the program runs.
+//! The inner loops in AVX2, chosen when the program runs.
 #![allow(unsafe_code, reason = "vector instructions; every use is behind a check of the CPU")]
 
 use super::box_ray::BoxRay;
-use super::kernel::{Job, Kernel, Passages};
+use super::kernel::{Kernel, Passages, Traversal};
 use super::node::{Block, LANES, Node};
 use super::stack::{Keys, LANE, NONE};
 use crate::geometry::line::Line;
@@ -208,11 +208,6 @@ unsafe fn cross(p: (__m256d, __m256d, __m256d), q: (__m256d, __m256d, __m256d)) 
     unsafe { _mm256_sub_pd(_mm256_mul_pd(p.0, q.1), _mm256_mul_pd(p.1, q.0)) }
 }
 
-/// [`Avx2`] where the compiler may use what AVX-512 adds to it. Vectors of 512
-/// bits for entries and exits at once were measured to be slower.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Avx512(Avx2);
-
 impl Avx2 {
     pub(crate) fn detect() -> Option<Self> {
         let has = is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma");
@@ -220,31 +215,13 @@ impl Avx2 {
     }
 
     #[inline(always)]
-    pub(crate) fn run<J: Job>(self, job: J) -> J::Output {
+    pub(crate) fn run<J: Traversal>(self, traversal: J) -> J::Output {
         // SAFETY: `self` exists, so the CPU has AVX2 and FMA.
-        unsafe { avx2(self, job) }
-    }
-}
-
-impl Avx512 {
-    pub(crate) fn detect() -> Option<Self> {
-        let has = is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512vl");
-        Avx2::detect().filter(|_| has).map(Self)
-    }
-
-    #[inline(always)]
-    pub(crate) fn run<J: Job>(self, job: J) -> J::Output {
-        // SAFETY: `self` exists, so the CPU has AVX-512 F and VL.
-        unsafe { avx512(self, job) }
+        unsafe { avx2(self, traversal) }
     }
 }
 
 #[target_feature(enable = "avx2,fma")]
-unsafe fn avx2<J: Job>(kernel: Avx2, job: J) -> J::Output {
-    job.run(kernel)
-}
-
-#[target_feature(enable = "avx2,fma,avx512f,avx512vl")]
-unsafe fn avx512<J: Job>(kernel: Avx512, job: J) -> J::Output {
-    job.run(kernel.0)
+unsafe fn avx2<J: Traversal>(kernel: Avx2, traversal: J) -> J::Output {
+    traversal.run(kernel)
 }

@@ -26,7 +26,7 @@ pub(crate) struct Costs<'a> {
 
 /// A subtree as it will be a child.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) enum Part {
+pub(crate) enum Subtree {
     /// All triangles below these binary nodes.
     Block(Vec<usize>),
     /// A wide node in place of this binary node.
@@ -80,42 +80,42 @@ impl<'a> Costs<'a> {
     }
 
     /// How a binary node becomes one child.
-    pub(crate) fn part(&self, index: usize) -> Part {
+    pub(crate) fn subtree(&self, index: usize) -> Subtree {
         let fits = usize::from(self.counts[index]) <= LANES;
         let area = self.bvh.nodes[index].aabb().half_area();
         if self.bvh.nodes[index].is_leaf() || (fits && self.costs[index][0] >= area * BLOCK_COST) {
-            Part::Block(vec![index])
+            Subtree::Block(vec![index])
         } else {
-            Part::Node(index)
+            Subtree::Node(index)
         }
     }
 
-    /// The children of the wide node in place of a part, nodes first. A block,
+    /// The children of the wide node in place of a subtree, nodes first. A block,
     /// which is so only at the root, becomes a node's only child.
-    pub(crate) fn children(&self, part: Part) -> Vec<Part> {
-        let Part::Node(index) = part else { return vec![part] };
-        let mut parts = Vec::with_capacity(WIDTH);
+    pub(crate) fn children(&self, subtree: Subtree) -> Vec<Subtree> {
+        let Subtree::Node(index) = subtree else { return vec![subtree] };
+        let mut subtrees = Vec::with_capacity(WIDTH);
         let [left, right] = self.kids(index);
         let (_, share) = self.forest([left, right], WIDTH);
-        self.distribute(left, share, &mut parts);
-        self.distribute(right, WIDTH - share, &mut parts);
-        while let Some((first, second)) = self.pair(&parts) {
-            if let Part::Block(more) = parts.swap_remove(second)
-                && let Part::Block(indices) = &mut parts[first]
+        self.distribute(left, share, &mut subtrees);
+        self.distribute(right, WIDTH - share, &mut subtrees);
+        while let Some((first, second)) = self.pair(&subtrees) {
+            if let Subtree::Block(more) = subtrees.swap_remove(second)
+                && let Subtree::Block(indices) = &mut subtrees[first]
             {
                 indices.extend(more);
             }
         }
-        parts.sort_by_key(|part| matches!(part, Part::Block(_)));
-        parts
+        subtrees.sort_by_key(|subtree| matches!(subtree, Subtree::Block(_)));
+        subtrees
     }
 
-    /// The box around a part.
-    pub(crate) fn bounds(&self, part: &Part) -> Aabb {
+    /// The box around a subtree.
+    pub(crate) fn bounds(&self, subtree: &Subtree) -> Aabb {
         let of = |index: &usize| *self.bvh.nodes[*index].aabb();
-        match part {
-            Part::Node(index) => of(index),
-            Part::Block(indices) => {
+        match subtree {
+            Subtree::Node(index) => of(index),
+            Subtree::Block(indices) => {
                 indices.iter().map(of).reduce(|a, b| a.union(&b)).unwrap_or(Aabb::empty())
             }
         }
@@ -124,14 +124,14 @@ impl<'a> Costs<'a> {
     /// Two blocks of a node that fit into one which is met hardly more often than
     /// the two together, those that gain most. The binary tree does not know what
     /// fits: without this, blocks of four hold 2.7 triangles.
-    fn pair(&self, parts: &[Part]) -> Option<(usize, usize)> {
-        let blocks: Vec<(usize, usize, Aabb)> = parts
+    fn pair(&self, subtrees: &[Subtree]) -> Option<(usize, usize)> {
+        let blocks: Vec<(usize, usize, Aabb)> = subtrees
             .iter()
             .enumerate()
-            .filter_map(|(place, part)| {
-                let Part::Block(indices) = part else { return None };
+            .filter_map(|(place, subtree)| {
+                let Subtree::Block(indices) = subtree else { return None };
                 let count = indices.iter().map(|i| usize::from(self.counts[*i])).sum();
-                (count < LANES).then(|| (place, count, self.bounds(part)))
+                (count < LANES).then(|| (place, count, self.bounds(subtree)))
             })
             .collect();
         let mut best = None;
@@ -148,20 +148,20 @@ impl<'a> Costs<'a> {
         best
     }
 
-    fn distribute(&self, index: usize, trees: usize, parts: &mut Vec<Part>) {
+    fn distribute(&self, index: usize, trees: usize, subtrees: &mut Vec<Subtree>) {
         let costs = &self.costs[index];
         let mut trees = trees;
         while trees > 1 && costs[trees - 2] <= costs[trees - 1] {
             trees -= 1;
         }
         if trees == 1 {
-            parts.push(self.part(index));
+            subtrees.push(self.subtree(index));
             return;
         }
         let [left, right] = self.kids(index);
         let (_, share) = self.forest([left, right], trees);
-        self.distribute(left, share, parts);
-        self.distribute(right, trees - share, parts);
+        self.distribute(left, share, subtrees);
+        self.distribute(right, trees - share, subtrees);
     }
 
     /// The triangles below binary nodes.

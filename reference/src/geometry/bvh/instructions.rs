@@ -1,8 +1,8 @@
 //! Which instructions run the inner loops: decided by the CPU the program is on.
 
 #[cfg(target_arch = "x86_64")]
-use super::avx2::{Avx2, Avx512};
-use super::kernel::{Job, Portable};
+use super::avx2::Avx2;
+use super::kernel::{Portable, Traversal};
 
 /// Sets of instructions that the tree knows. All answer with the same bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -11,8 +11,6 @@ pub enum Instructions {
     Portable,
     /// AVX2 and FMA.
     Avx2,
-    /// AVX-512 F and VL.
-    Avx512,
 }
 
 impl Instructions {
@@ -23,15 +21,13 @@ impl Instructions {
             Detected::Portable => Self::Portable,
             #[cfg(target_arch = "x86_64")]
             Detected::Avx2(_) => Self::Avx2,
-            #[cfg(target_arch = "x86_64")]
-            Detected::Avx512(_) => Self::Avx512,
         }
     }
 
     /// Those that this CPU has, the oldest first.
     #[must_use]
     pub fn available() -> Vec<Self> {
-        let all = [Self::Portable, Self::Avx2, Self::Avx512];
+        let all = [Self::Portable, Self::Avx2];
         all.into_iter().filter(|kind| Detected::new(*kind).is_some()).collect()
     }
 }
@@ -42,8 +38,6 @@ pub(crate) enum Detected {
     Portable,
     #[cfg(target_arch = "x86_64")]
     Avx2(Avx2),
-    #[cfg(target_arch = "x86_64")]
-    Avx512(Avx512),
 }
 
 impl Detected {
@@ -53,26 +47,23 @@ impl Detected {
             Instructions::Portable => Some(Self::Portable),
             #[cfg(target_arch = "x86_64")]
             Instructions::Avx2 => Avx2::detect().map(Self::Avx2),
-            #[cfg(target_arch = "x86_64")]
-            Instructions::Avx512 => Avx512::detect().map(Self::Avx512),
             #[cfg(not(target_arch = "x86_64"))]
             _ => None,
         }
     }
 
-    /// AVX2 also where there is AVX-512, which was never measured to be faster.
+    /// AVX2 where the CPU has it. AVX-512 was measured not to be faster, with
+    /// vectors of 256 bits and of 512.
     pub(crate) fn best() -> Self {
         Self::new(Instructions::Avx2).unwrap_or(Self::Portable)
     }
 
     #[inline(always)]
-    pub(crate) fn run<J: Job>(self, job: J) -> J::Output {
+    pub(crate) fn run<J: Traversal>(self, traversal: J) -> J::Output {
         match self {
-            Self::Portable => job.run(Portable),
+            Self::Portable => traversal.run(Portable),
             #[cfg(target_arch = "x86_64")]
-            Self::Avx2(kernel) => kernel.run(job),
-            #[cfg(target_arch = "x86_64")]
-            Self::Avx512(kernel) => kernel.run(job),
+            Self::Avx2(kernel) => kernel.run(traversal),
         }
     }
 }

@@ -12,7 +12,7 @@ use crate::geometry::line::Line;
 use crate::geometry::triangle::Passage;
 
 /// What runs on a kernel, whichever it is.
-pub(crate) trait Job {
+pub(crate) trait Traversal {
     type Output;
 
     fn run<K: Kernel>(self, kernel: K) -> Self::Output;

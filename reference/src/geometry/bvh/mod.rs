@@ -22,7 +22,7 @@ pub(crate) use walk::{Query, TriangleHit};
 
 use crate::geometry::soup::Soup;
 use crate::geometry::triangle::Triangle;
-use collapse::{Costs, Part};
+use collapse::{Costs, Subtree};
 use glam::DVec3;
 use node::{Block, LANES, Links, Node, Unit};
 use obvhs::BvhBuildParams;
@@ -87,21 +87,21 @@ impl Tree {
         self.blocks.reserve_exact(self.count / 2 + 1);
         self.nodes.reserve_exact(self.count / 8 + 1);
         self.nodes.push(Node::EMPTY);
-        let mut todo = vec![(costs.part(0), 0)];
-        while let Some((part, mine)) = todo.pop() {
+        let mut todo = vec![(costs.subtree(0), 0)];
+        while let Some((subtree, mine)) = todo.pop() {
             let first = todo.len();
             let (first_node, first_block) = (self.nodes.len() as u32, self.blocks.len() as u32);
-            for (i, part) in costs.children(part).into_iter().enumerate() {
-                let bounds = costs.bounds(&part);
+            for (i, subtree) in costs.children(subtree).into_iter().enumerate() {
+                let bounds = costs.bounds(&subtree);
                 let node: &mut Node = &mut self.nodes[mine];
                 for axis in 0..3 {
                     node.planes[axis][0][i] = bounds.min[axis];
                     node.planes[axis][1][i] = bounds.max[axis];
                 }
-                match part {
-                    Part::Block(of) => self.blocks.push(block(&costs, of, triangles)),
-                    Part::Node(_) => {
-                        todo.push((part, self.nodes.len()));
+                match subtree {
+                    Subtree::Block(of) => self.blocks.push(block(&costs, of, triangles)),
+                    Subtree::Node(_) => {
+                        todo.push((subtree, self.nodes.len()));
                         self.nodes.push(Node::EMPTY);
                     }
                 }

@@ -25,7 +25,7 @@ pub(crate) fn latest(limit: f32) -> i32 {
 
 /// The children of a node, and which of them are still to visit.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Frame {
+pub(crate) struct Siblings {
     pub(crate) keys: Keys,
     pub(crate) links: Links,
 }
@@ -33,7 +33,7 @@ pub(crate) struct Frame {
 /// Kept between rays, so that it seldom grows.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Stack {
-    frames: Vec<Frame>,
+    levels: Vec<Siblings>,
     used: usize,
 }
 
@@ -43,21 +43,21 @@ impl Stack {
         self.used = 0;
     }
 
-    /// A new frame on top.
+    /// The children of one more node, on top.
     #[inline(always)]
     pub(crate) fn push(&mut self, links: Links) -> &mut Keys {
-        if self.used == self.frames.len() {
+        if self.used == self.levels.len() {
             self.grow();
         }
-        let frame = &mut self.frames[self.used];
-        frame.links = links;
+        let siblings = &mut self.levels[self.used];
+        siblings.links = links;
         self.used += 1;
-        &mut frame.keys
+        &mut siblings.keys
     }
 
     #[inline(always)]
-    pub(crate) fn top(&mut self) -> Option<&mut Frame> {
-        self.frames[..self.used].last_mut()
+    pub(crate) fn top(&mut self) -> Option<&mut Siblings> {
+        self.levels[..self.used].last_mut()
     }
 
     #[inline(always)]
@@ -67,6 +67,6 @@ impl Stack {
 
     #[cold]
     fn grow(&mut self) {
-        self.frames.resize(2 * self.used + 16, Frame { keys: Keys::NONE, links: Links::ROOT });
+        self.levels.resize(2 * self.used + 16, Siblings { keys: Keys::NONE, links: Links::ROOT });
     }
 }

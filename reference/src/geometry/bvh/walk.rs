@@ -7,7 +7,7 @@
 use super::Tree;
 use super::box_ray::BoxRay;
 use super::instructions::Detected;
-use super::kernel::{Job, Kernel};
+use super::kernel::{Kernel, Traversal};
 use super::node::{Block, Child, LANES, Links};
 use super::stack::{LANE, Stack, latest};
 use crate::geometry::line::Line;
@@ -119,7 +119,7 @@ struct Nearest<'a> {
     stack: &'a mut Stack,
 }
 
-impl Job for Nearest<'_> {
+impl Traversal for Nearest<'_> {
     type Output = Closest;
 
     #[inline(always)]
@@ -173,7 +173,7 @@ struct All<'a, F> {
     each: F,
 }
 
-impl<F: FnMut(TriangleHit)> Job for All<'_, F> {
+impl<F: FnMut(TriangleHit)> Traversal for All<'_, F> {
     type Output = ();
 
     #[inline(always)]
@@ -265,11 +265,11 @@ impl<'a, K: Kernel> Walk<'a, K> {
     #[inline(always)]
     fn waiting(&mut self) -> Option<(Links, u32)> {
         loop {
-            let frame = self.stack.top()?;
-            let (key, others) = self.kernel.nearest(self.kernel.load(&frame.keys));
+            let siblings = self.stack.top()?;
+            let (key, others) = self.kernel.nearest(self.kernel.load(&siblings.keys));
             if key <= self.last {
-                self.kernel.store(others, &mut frame.keys);
-                return Some((frame.links, lane(key)));
+                self.kernel.store(others, &mut siblings.keys);
+                return Some((siblings.links, lane(key)));
             }
             self.stack.pop();
         }

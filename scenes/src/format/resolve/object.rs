@@ -6,7 +6,7 @@ use super::media::Media;
 use super::shape::{Found, Shapes};
 use super::{only_one, span_of};
 use crate::scene::{Air, Bump, Crack, Motion, Normals, Wave};
-use crate::{Medium, Object, Shape, Surface};
+use crate::{Medium, Object, Shape, Surface, box_corners};
 use glam::{DAffine3, DMat3, DVec3, EulerRot};
 use std::ops::Range;
 use toml::Spanned;
@@ -219,15 +219,12 @@ pub(super) fn warn_of_ties(objects: &[Object], media: &[Medium], warnings: &mut 
 
 /// Corners of the object's box in world space; infinite if the shape is.
 fn world_bounds(object: &Object) -> [DVec3; 2] {
-    let [low, high] = object.shape.bounds();
+    let bounds @ [low, high] = object.shape.bounds();
     if !(low.is_finite() && high.is_finite()) {
         return [DVec3::NEG_INFINITY, DVec3::INFINITY];
     }
-    let corner = |i: usize| {
-        let pick = |axis: usize| if i >> axis & 1 == 0 { low[axis] } else { high[axis] };
-        object.world_from_object.transform_point3(DVec3::new(pick(0), pick(1), pick(2)))
-    };
-    (0..8)
-        .map(corner)
+    box_corners(bounds)
+        .map(|corner| object.world_from_object.transform_point3(corner))
+        .into_iter()
         .fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[low, high], p| [low.min(p), high.max(p)])
 }

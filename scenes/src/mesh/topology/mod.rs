@@ -8,7 +8,7 @@ mod weld;
 
 pub use convex::is_convex;
 pub use orient::{NotOrientable, orient_outward};
-pub use report::{NotSolid, Report, boundary_loops, inspect, signed_volume};
+pub use report::{NotSolid, Report, boundary_loops, inspect, signed_volume, unbalanced_edges};
 pub use weld::{Removed, clean, weld};
 
 #[cfg(test)]

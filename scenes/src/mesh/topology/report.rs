@@ -1,6 +1,6 @@
 //! Counts that say what kind of surface a mesh is.
 
-use super::edges::{Sets, edges, sides};
+use super::edges::{Sets, Side, edges, sides};
 use super::weld::{cyclic, is_degenerate};
 use crate::Mesh;
 use std::collections::{HashMap, HashSet};
@@ -103,6 +103,18 @@ impl Report {
     }
 }
 
+/// Edges that are not used equally often in both senses. Without any the mesh is a
+/// cycle: every line enters it as often as it leaves.
+#[must_use]
+pub fn unbalanced_edges(mesh: &Mesh) -> usize {
+    let sides = sides(mesh);
+    edges(&sides).filter(|edge| is_unbalanced(mesh, edge)).count()
+}
+
+fn is_unbalanced(mesh: &Mesh, edge: &[Side]) -> bool {
+    2 * edge.iter().filter(|side| side.is_forward(mesh)).count() != edge.len()
+}
+
 /// Examines a welded mesh.
 #[must_use]
 pub fn inspect(mesh: &Mesh) -> Report {
@@ -123,7 +135,7 @@ pub fn inspect(mesh: &Mesh) -> Report {
         report.boundary_edges += usize::from(edge.len() == 1);
         report.non_manifold_edges += usize::from(edge.len() > 2);
         report.inconsistent_edges += usize::from(edge.len() == 2 && forward != 1);
-        report.unbalanced_edges += usize::from(2 * forward != edge.len());
+        report.unbalanced_edges += usize::from(is_unbalanced(mesh, edge));
         for side in edge {
             parts.join(edge[0].corner / 3, side.corner / 3);
             for vertex in [side.low, side.high] {

@@ -1,10 +1,10 @@
-//! What is to be traced, for everyone who traces a part of it.
+//! What an image is traced from, for everyone who traces a part of it.
 
-use crate::image::layers::Columns;
+use super::layers::RequestedLayers;
 use crate::request::Request;
 use crate::transport::tracer::Tracer;
 use scenes::Camera;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// How a long rendering is observed and stopped.
 #[derive(Clone, Copy, Default)]
@@ -15,11 +15,18 @@ pub struct Watch<'a> {
     pub cancel: Option<&'a AtomicBool>,
 }
 
-/// Everything a row needs.
-pub(crate) struct Job<'a> {
+impl Watch<'_> {
+    /// The rendering is to end.
+    pub(crate) fn is_cancelled(&self) -> bool {
+        self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed))
+    }
+}
+
+/// Everything a row of pixels needs.
+pub(crate) struct ImageRun<'a> {
     pub(crate) tracer: &'a Tracer<'a>,
     pub(crate) camera: Camera,
     pub(crate) request: &'a Request,
-    pub(crate) columns: &'a Columns,
+    pub(crate) layers: &'a RequestedLayers,
     pub(crate) watch: Watch<'a>,
 }
