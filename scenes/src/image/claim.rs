@@ -6,32 +6,61 @@ use std::path::Path;
 /// Most pixels of an image: 32768 x 16384.
 const MOST_PIXELS: u64 = 1 << 29;
 /// Claims below this need no proof, bytes of decoded pixels.
-const FREE_BYTES: u64 = 1 << 28;
-/// More than any codec here packs into one byte (deflate: 1032).
-const MOST_PER_BYTE: u64 = 2048;
+pub(super) const FREE_BYTES: u64 = 1 << 28;
 
-/// Accepts an image of this size, if a file of this many bytes can hold it.
-///
-/// # Errors
-/// If the image is empty, too large, or larger than its file can hold.
-pub(super) fn weigh(
-    path: &Path,
-    [width, height]: [u64; 2],
-    bytes_per_pixel: u64,
-    file_bytes: u64,
-) -> Result<(), Error> {
-    if width == 0 || height == 0 {
-        return Err(Error::Empty { path: path.to_owned(), width, height });
+/// An image as its header describes it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Claim<'a> {
+    pub(super) path: &'a Path,
+    /// Width and height, pixels.
+    pub(super) size_px: [u64; 2],
+    /// Size of the file, bytes.
+    pub(super) file_bytes: u64,
+}
+
+impl Claim<'_> {
+    /// Accepts the size as such.
+    ///
+    /// # Errors
+    /// If the image is empty or larger than any that is accepted.
+    pub(super) fn size(&self) -> Result<(), Error> {
+        let [width, height] = self.size_px;
+        if width == 0 || height == 0 {
+            return Err(Error::Empty { path: self.path.to_owned(), width, height });
+        }
+        if width.saturating_mul(height) > MOST_PIXELS {
+            return Err(self.refused("use an image of at most 32768 x 16384 pixels"));
+        }
+        Ok(())
     }
-    let pixels = width.saturating_mul(height);
-    let decoded = pixels.saturating_mul(bytes_per_pixel);
-    let advice = if pixels > MOST_PIXELS {
-        "use an image of at most 32768 x 16384 pixels"
-    } else if decoded > FREE_BYTES && decoded / MOST_PER_BYTE > file_bytes {
-        "the file is too short for that many: fetch or export it again"
-    } else {
-        return Ok(());
-    };
-    let (path, advice) = (path.to_owned(), advice.to_owned());
-    Err(Error::Claim { path, width, height, bytes: file_bytes, advice })
+
+    /// Accepts an image whose file holds `packed` bytes of pixels, which a codec
+    /// that makes at most `most_per_byte` of one unpacks to `decoded`.
+    ///
+    /// # Errors
+    /// Those of [`Claim::size`], and if the file cannot hold so many pixels.
+    pub(super) fn weigh(
+        &self,
+        decoded: u64,
+        packed: u64,
+        most_per_byte: u64,
+    ) -> Result<(), Error> {
+        self.size()?;
+        if decoded > FREE_BYTES && decoded / most_per_byte > packed {
+            return Err(self.too_short());
+        }
+        Ok(())
+    }
+
+    /// The file cannot hold what it claims.
+    pub(super) fn too_short(&self) -> Error {
+        self.refused("the file is too short for that many: fetch or export it again")
+    }
+
+    /// Refuses the claim with this advice.
+    pub(super) fn refused(&self, advice: &str) -> Error {
+        let ([width, height], bytes) = (self.size_px, self.file_bytes);
+        let (path, advice) = (self.path.to_owned(), advice.to_owned());
+        Error::Claim { path, width, height, bytes, advice }
+    }
 }

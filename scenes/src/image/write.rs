@@ -2,8 +2,9 @@
 //! its name only when it is whole.
 
 use super::Error;
+use super::colour::srgb_from_linear;
 use crate::{Layer, LayerName, Layers};
-use exr::prelude::{
+use ::exr::prelude::{
     AnyChannel, AnyChannels, AttributeValue, Encoding, FlatSamples, Image, LayerAttributes, Text,
     WritableImage,
 };
@@ -55,13 +56,6 @@ impl Preview {
     }
 }
 
-/// Code value in [0, 1] of a linear value in [0, 1].
-///
-/// Source: IEC 61966-2-1:1999.
-fn srgb_from_linear(linear: f64) -> f64 {
-    if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
-}
-
 /// Writes every layer as f32, ZIP-compressed: the radiance as `R,G,B`, others
 /// as `name.channel`.
 ///
@@ -100,7 +94,7 @@ pub fn write_exr_with(
         let name = name.ok_or_else(|| write_error(path, "an attribute's name is not Latin-1"))?;
         named.other.insert(name, AttributeValue::Text(value));
     }
-    let part = exr::prelude::Layer::new(
+    let part = ::exr::prelude::Layer::new(
         (width, height),
         named,
         Encoding::SMALL_LOSSLESS,

@@ -48,7 +48,8 @@ impl Extras {
         }
         if let Some(name) = &text.environment_map {
             let file = path.parent().unwrap_or(Path::new("")).join(name);
-            let lat_long = image::read_lat_long(&file)?;
+            let (lat_long, said) = image::read_lat_long(&file)?;
+            extras.warnings.extend(said);
             let mut hash = Sha256::new();
             for value in lat_long.texels.iter().flatten() {
                 hash.update(value.to_le_bytes());

@@ -39,8 +39,9 @@ pub(super) fn resolve(
     }
     let span = span_of(&text.map).unwrap_or_default();
     let name = text.map.as_ref().map_or("", |map| map.get_ref());
-    let lat_long = image::read_lat_long(&base.join(name))
+    let (lat_long, said) = image::read_lat_long(&base.join(name))
         .map_err(|error| At { span, problem: Problem::Image(error) })?;
+    warnings.extend(said);
     let [width, height] = lat_long.size_px;
     if width != 2 * height {
         warnings.push(format!(
