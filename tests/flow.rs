@@ -2,7 +2,6 @@
 //! results and the report.
 #![allow(clippy::unwrap_used, reason = "a missing file or value must fail its test")]
 
-use compare::image_pair::read_image;
 use compare::results::{REFERENCE, ResultRow, RowKind, read_rows, read_study, saved_ms};
 use scenes::LayerName;
 use snell_tests::run;
@@ -42,7 +41,7 @@ fn snell(folder: &Path, arguments: &str) -> String {
 /// the first event: sin θi / sin θt against the ball's own normal. Pixels near
 /// the axis, where both sines vanish, are left out.
 fn measured(image: &Path) -> [f64; 2] {
-    let layers = read_image(image).unwrap().layers;
+    let layers = scenes::image::read(image).unwrap();
     let first = layers.get(&LayerName::First).unwrap();
     let mut range = [f64::INFINITY, f64::NEG_INFINITY];
     for (pixel, d) in first.data.chunks_exact(3).enumerate() {

@@ -2,13 +2,13 @@
 //! bytes: numpy, scikit-image, FLIP 1.7 and PU21 (`data/vectors`).
 #![allow(clippy::unwrap_used, reason = "a test that cannot read its vectors must fail")]
 
-use compare::image_pair::{Image, read_image};
 use compare::metric::{
     Candidate, Exposures, Judgement, Metric, Reference, Selection, display, error, exit_angle,
     flip, judge, pu21, relative, ssim, stack,
 };
 use compare::results::Status;
 use compare::support::sum;
+use scenes::image::{Alpha, Picture as Image, open};
 use scenes::{LayerName, Layers};
 use serde_json::Value;
 use sha2::{Digest, Sha256};
@@ -23,7 +23,7 @@ fn expected() -> Value {
 }
 
 fn read(name: &str) -> Image {
-    read_image(&path(name)).unwrap()
+    open(&path(name), Alpha::default()).unwrap()
 }
 
 fn colours(image: &Image) -> &[f64] {

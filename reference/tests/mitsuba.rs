@@ -46,7 +46,7 @@ fn scene(mesh: &str, normals: Normals) -> Scene {
     let mut scene = furnace(vec![object(Shape::Mesh(mesh), 1, normals)], 1.5);
     scene.camera.eye = DVec3::new(0.0, 0.6, 4.0);
     scene.camera.projection = Projection::Perspective { vertical_fov_deg: 40.0 };
-    scene.environment = environment(read_lat_long(&file("env_nosun_1024x512.exr")).unwrap());
+    scene.environment = environment(read_lat_long(&file("env_nosun_1024x512.exr")).unwrap().0);
     scene
 }
 

@@ -24,6 +24,7 @@ pub use judgement_error::JudgementError;
 pub use crate::results::Mask;
 use crate::results::{ResultRow, RowKind, Status};
 use scenes::Layers;
+pub use scenes::image::Encoding;
 use serde::Serialize;
 
 /// The image that is taken as true.
@@ -34,16 +35,6 @@ pub struct Reference<'a>(pub &'a Layers);
 /// comparison cannot be swapped: most metrics divide by the reference.
 #[derive(Clone, Copy, Debug)]
 pub struct Candidate<'a>(pub &'a Layers);
-
-/// What the values of the radiance layer mean.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Encoding {
-    /// Linear radiance, Rec.709 primaries.
-    #[default]
-    Linear,
-    /// sRGB code values, 0..1: what a PNG holds.
-    Display,
-}
 
 /// What is asked of [`judge`].
 #[derive(Clone, Debug, PartialEq)]

@@ -14,7 +14,6 @@ mod spreadsheet;
 mod verdict;
 pub mod viewer;
 
-use crate::image_pair::ImagePairError;
 use crate::results::{ResultsError, read_rows, read_study};
 use askama::Template;
 use files::write_file;
@@ -28,7 +27,7 @@ pub enum ReportError {
     Results(#[from] ResultsError),
     /// An image of the study cannot be read.
     #[error(transparent)]
-    Image(#[from] ImagePairError),
+    Image(#[from] scenes::image::Error),
     /// A file cannot be written.
     #[error("{}: {source}", path.display())]
     Write {

@@ -39,12 +39,7 @@ impl Claim<'_> {
     ///
     /// # Errors
     /// Those of [`Claim::size`], and if the file cannot hold so many pixels.
-    pub(super) fn weigh(
-        &self,
-        decoded: u64,
-        packed: u64,
-        most_per_byte: u64,
-    ) -> Result<(), Error> {
+    pub(super) fn weigh(&self, decoded: u64, packed: u64, most_per_byte: u64) -> Result<(), Error> {
         self.size()?;
         if decoded > FREE_BYTES && decoded / most_per_byte > packed {
             return Err(self.too_short());

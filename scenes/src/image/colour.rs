@@ -123,11 +123,8 @@ mod tests {
     #[test]
     fn the_matrix_of_rec_709_is_the_standards() {
         let m = REC_709.xyz_from_rgb().unwrap();
-        let standard = [
-            [0.4124, 0.3576, 0.1805],
-            [0.2126, 0.7152, 0.0722],
-            [0.0193, 0.1192, 0.9505],
-        ];
+        let standard =
+            [[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]];
         for (row, expected) in standard.iter().enumerate() {
             for (column, expected) in expected.iter().enumerate() {
                 assert!((m.row(row)[column] - expected).abs() < 5.1e-5, "{row} {column}");

@@ -15,8 +15,9 @@ pub(super) enum Kind {
     Other(ImageFormat),
 }
 
-/// First bytes, and endings of names, of a kind.
-const KNOWN: [(Kind, &[&[u8]], &[&str]); 10] = [
+/// A kind, its possible first bytes, and endings of names.
+type Marks = (Kind, &'static [&'static [u8]], &'static [&'static str]);
+const KNOWN: [Marks; 10] = [
     (Kind::Exr, &[&[0x76, 0x2f, 0x31, 0x01]], &["exr"]),
     (Kind::Radiance, &[b"#?"], &["hdr", "pic", "rgbe", "xyze"]),
     (Kind::Pfm, &[b"PF\n", b"Pf\n", b"PF\r", b"Pf\r", b"PF ", b"Pf "], &["pfm"]),

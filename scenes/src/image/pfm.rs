@@ -38,7 +38,8 @@ pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<Picture, Error> {
     if scale.abs() != 1.0 {
         picture.warnings.push(format!(
             "its scale is {}, of which programs make different things: the samples are taken as \
-             they are", scale.abs()
+             they are",
+            scale.abs()
         ));
     }
     picture.layers = Layers::new(size_px);

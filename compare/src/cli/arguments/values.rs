@@ -1,6 +1,7 @@
 //! Values of arguments, read from the words that people write.
 
 use crate::metric::Exposures;
+use scenes::image::Alpha;
 use std::path::{Path, PathBuf};
 
 /// True for the name of a .png file.
@@ -50,6 +51,19 @@ pub(in crate::cli) fn exposures(text: &str) -> Result<Exposures, String> {
     let count = count.parse().ok().filter(|count| (2..=64).contains(count));
     let count = count.ok_or("COUNT is a whole number from 2 to 64")?;
     Ok(Exposures { start: stops(start)?, stop: stops(stop)?, count })
+}
+
+/// Reads what transparent pixels lie over.
+pub(in crate::cli) fn alpha(text: &str) -> Result<Alpha, String> {
+    let named = Alpha::ALL.into_iter().find(|alpha| alpha.name() == text);
+    named.ok_or_else(|| format!("write one of {}", Alpha::ALL.map(Alpha::name).join(", ")))
+}
+
+/// Reads `ev=STOPS`.
+pub(in crate::cli) fn display_ev(text: &str) -> Result<f64, String> {
+    let stops = text.strip_prefix("ev=").and_then(|stops| stops.trim().parse::<f64>().ok());
+    let stops = stops.filter(|stops| stops.abs() <= 100.0);
+    stops.ok_or_else(|| "write ev=STOPS, such as ev=-0.5".to_owned())
 }
 
 /// Reads `NAME=VALUE`.

@@ -1,19 +1,23 @@
 //! `snell compare REF TEST`: metrics of two image files.
 
 use crate::Error;
-use crate::cli::arguments::values::exposures;
+use crate::cli::arguments::values::{alpha, display_ev, exposures};
 use crate::cli::output::{Output, table};
 use crate::cli::status::Status;
-use crate::image_pair::compare_files;
+use crate::image_pair::{Comparison, Question, compare_files};
 use crate::metric::{Exposures, Measurement};
 use crate::results::{NotDone, Status as Usable};
+use scenes::image::Alpha;
+use serde::Serialize;
 use std::path::PathBuf;
 
-/// Measure how far an image is from a reference: any two EXR, HDR or PNG files
+/// Measure how far an image is from a reference: any two image files
 ///
-/// EXR and HDR files are taken as linear radiance, PNG files as display code
-/// values. Layers such as `exit` and `coverage` are used where the files have
-/// them; what a pair cannot have is left out, with the reason.
+/// OpenEXR, Radiance, PFM and float TIFF files are linear radiance; PNG, TIFF,
+/// JPEG, WebP, TGA, BMP, PPM and QOI files are display code values. Layers such
+/// as `exit` and `coverage` are used where the files have them; what a pair
+/// cannot have is left out, with the reason. FILE.exr:LAYER takes one layer of an
+/// OpenEXR file as the image.
 #[derive(clap::Args, Debug)]
 pub(in crate::cli) struct Args {
     /// Image that is taken as true
@@ -24,17 +28,43 @@ pub(in crate::cli) struct Args {
     /// [default: from the reference]
     #[arg(long, value_name = "START,STOP,COUNT", value_parser = exposures)]
     flip_exposures: Option<Exposures>,
+    /// What transparent pixels lie over: over-black, over-white, or ignore to take
+    /// colours as they are stored
+    #[arg(long, value_name = "HOW", value_parser = alpha, default_value = "over-black")]
+    alpha: Alpha,
+    /// Compare as display images: multiply linear radiance by 2 to the power of
+    /// STOPS, clamp it to 0..1 and encode it as sRGB
+    #[arg(long, value_name = "ev=STOPS", value_parser = display_ev, allow_hyphen_values = true)]
+    display: Option<f64>,
+}
+
+/// A line of the answer for programs.
+#[derive(Serialize)]
+struct Line<'a> {
+    #[serde(flatten)]
+    measurement: &'a Measurement,
+    /// What transparent pixels lie over; `none` where both files are opaque.
+    alpha: &'static str,
+    /// What the files say of their pixels and was not obeyed.
+    warnings: &'a [String],
 }
 
 pub(in crate::cli) fn run(args: &Args, output: Output) -> Result<Status, Error> {
-    let judgement = compare_files(&args.reference, &args.test, args.flip_exposures)?;
+    let (flip_exposures, alpha, display_ev) = (args.flip_exposures, args.alpha, args.display);
+    let question = Question { flip_exposures, alpha, display_ev };
+    let Comparison { judgement, has_alpha, warnings } =
+        compare_files(&args.reference, &args.test, &question)?;
+    warnings.iter().for_each(|warning| Output::note(&format!("warning: {warning}")));
+    let alpha = if has_alpha { alpha.name() } else { "none" };
     if output.json {
         for measurement in &judgement.measurements {
-            output.object("snell.measurement/1", measurement)?;
+            let warnings = &warnings;
+            output.object("snell.measurement/1", &Line { measurement, alpha, warnings })?;
         }
     } else {
         output.line(&table(&text(&judgement.measurements)))?;
         output.line(&left_out(&judgement.left_out))?;
+        output.line(&format!("alpha: {alpha}"))?;
     }
     let invalid = |m: &Measurement| m.status == Usable::Invalid;
     match judgement.measurements.iter().find(|m| invalid(m)) {

@@ -2,7 +2,6 @@
 
 use super::colour_map;
 use super::picture::Picture;
-use crate::image_pair::read_image;
 use crate::metric::{Exposures, exit_angle, flip};
 use crate::report::ReportError;
 use crate::report::runs::methods_of;
@@ -132,7 +131,7 @@ fn has_image(run: &Run) -> bool {
 }
 
 fn layers(directory: &Path, run: &Run) -> Result<Layers, ReportError> {
-    Ok(read_image(&directory.join(&run.image))?.layers)
+    Ok(scenes::image::read(&directory.join(&run.image))?)
 }
 
 /// The FLIP map that the study kept, if it did.
@@ -140,7 +139,7 @@ fn stored_flip(directory: &Path, run: &Run) -> Result<Option<Vec<f64>>, ReportEr
     if run.flip_map.as_os_str().is_empty() {
         return Ok(None);
     }
-    let mut layers = read_image(&directory.join(&run.flip_map))?.layers;
+    let mut layers = scenes::image::read(&directory.join(&run.flip_map))?;
     layers.list.retain(|layer| layer.name == LayerName::Buffer(FLIP_LAYER.to_owned()));
     Ok(layers.list.pop().map(|layer| layer.data))
 }

@@ -1,7 +1,6 @@
 //! A finished job: an image file, and everything else the renderer told.
 
 use crate::Error;
-use crate::image_pair::read_image;
 use crate::study::cache::{Found, Id, Store};
 use scenes::rendering::{Pass, Provenance};
 use scenes::{Layers, Plan, Rendering};
@@ -72,7 +71,7 @@ impl Made {
     pub fn write(id: Id, image: &Path, rendering: Rendering) -> Result<Self, Error> {
         let (layers, facts) = parts(rendering);
         scenes::image::write_exr(image, &layers)?;
-        Ok(Self { id, image: image.to_owned(), layers: read_image(image)?.layers, facts })
+        Ok(Self { id, image: image.to_owned(), layers: scenes::image::read(image)?, facts })
     }
 
     fn read(id: &Id, folder: &Path) -> Result<Self, Error> {
@@ -80,7 +79,7 @@ impl Made {
         let failed = Error::file(folder, "the cache cannot be read");
         let text = fs::read(folder.join(FACTS)).map_err(&failed)?;
         let facts = serde_json::from_slice(&text).map_err(|error| failed(error.into()))?;
-        let layers = read_image(&image)?.layers;
+        let layers = scenes::image::read(&image)?;
         Ok(Self { id: id.clone(), image, layers, facts })
     }
 }

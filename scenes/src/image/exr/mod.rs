@@ -22,10 +22,10 @@ use header::{Headers, Part, Window};
 use names::{Choice, Content, Group};
 use std::path::Path;
 
-/// Display windows up to this many pixels need no data, 8192 x 4096.
-const FREE_PIXELS: u64 = 1 << 25;
+/// Samples that need no data, four channels of 8192 x 4096 pixels.
+const FREE_SAMPLES: u64 = 1 << 27;
 /// How much larger than its data a larger display window may be.
-const MOST_BLACK: u64 = 64;
+const MOST_BLACK: u64 = 4;
 
 /// What becomes the radiance.
 #[derive(Clone, Copy, Debug)]
@@ -57,7 +57,8 @@ pub(super) fn read(
     })?;
     let mut groups = names::groups(parts);
     let image = image_of(path, &mut groups, parts, wanted)?;
-    let display = image.map_or(parts[0].display, |group| parts[groups[group].channels[0].0].display);
+    let display =
+        image.map_or(parts[0].display, |group| parts[groups[group].channels[0].0].display);
     check_sizes(path, parts, display, bytes.len() as u64)?;
     let claim = claim_of(path, display, bytes.len() as u64);
     let blocks = blocks::locate(&claim, &headers, &codecs, bytes)?;
@@ -98,6 +99,16 @@ fn image_of(
     }
 }
 
+/// How many blocks there are: all of them were found and weighed.
+#[cfg(test)]
+pub(super) fn located(claim: &Claim, bytes: &[u8]) -> Result<usize, Error> {
+    let headers = Headers::parse(bytes).map_err(|reason| broken(claim.path, reason))?;
+    let codecs: Result<Vec<Codec>, String> =
+        headers.parts.iter().map(|part| Codec::of(part.compression)).collect();
+    let codecs = codecs.map_err(|reason| broken(claim.path, reason))?;
+    Ok(blocks::locate(claim, &headers, &codecs, bytes)?.len())
+}
+
 fn claim_of(path: &Path, window: Window, file_bytes: u64) -> Claim<'_> {
     Claim { path, size_px: window.size_px(), file_bytes }
 }
@@ -108,8 +119,12 @@ fn check_sizes(path: &Path, parts: &[Part], display: Window, bytes: u64) -> Resu
     }
     let claim = claim_of(path, display, bytes);
     claim.size()?;
-    let data: u64 = parts.iter().map(|part| part.data.pixels()).sum();
-    if display.pixels() > FREE_PIXELS.max(data.saturating_mul(MOST_BLACK)) {
+    // What is not in the file is black, but takes as much memory.
+    let channels: u64 = parts.iter().map(|part| part.channels.len() as u64).sum();
+    let samples = |part: &Part| part.data.pixels().saturating_mul(part.channels.len() as u64);
+    let data = parts.iter().map(samples).fold(0, u64::saturating_add);
+    let shown = display.pixels().saturating_mul(channels);
+    if shown > FREE_SAMPLES.max(data.saturating_mul(MOST_BLACK)) {
         return Err(claim.refused("its data window is a speck in that: crop the display window"));
     }
     Ok(())
@@ -118,7 +133,8 @@ fn check_sizes(path: &Path, parts: &[Part], display: Window, bytes: u64) -> Resu
 fn warnings(parts: &[Part], display: Window) -> Vec<String> {
     let mut warnings = Vec::new();
     for part in parts {
-        let name = if part.name.is_empty() { String::new() } else { format!("part {}: ", part.name) };
+        let name =
+            if part.name.is_empty() { String::new() } else { format!("part {}: ", part.name) };
         let outside = |axis: usize| {
             part.data.max[axis] < display.min[axis] || part.data.min[axis] > display.max[axis]
         };
@@ -161,9 +177,9 @@ fn push(
         if is_colour && !chromaticities.is_rec_709() {
             match chromaticities.rec_709_from_rgb() {
                 Some(matrix) => colour::transform(&mut data, &matrix),
-                None => picture.warnings.push(
-                    "chromaticities do not span the colours; Rec. 709 is taken".to_owned(),
-                ),
+                None => picture
+                    .warnings
+                    .push("chromaticities do not span the colours; Rec. 709 is taken".to_owned()),
             }
         }
         if let Some(opacity) = &opacity {

@@ -130,7 +130,8 @@ impl Lines {
             Some(primaries) if !primaries.is_rec_709() => {
                 let matrix = primaries.rec_709_from_rgb();
                 if matrix.is_none() {
-                    warnings.push("PRIMARIES do not span the colours; Rec. 709 is taken".to_owned());
+                    warnings
+                        .push("PRIMARIES do not span the colours; Rec. 709 is taken".to_owned());
                 }
                 matrix
             }

@@ -19,7 +19,8 @@ pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<Picture, Error> {
     let (header, body) = Header::parse(path, bytes)?;
     let [width, height] = header.size_px.map(|n| n as usize);
     let [lines, length] = if header.columns_first { [width, height] } else { [height, width] };
-    let claim = Claim { path, size_px: header.size_px.map(u64::from), file_bytes: bytes.len() as u64 };
+    let claim =
+        Claim { path, size_px: header.size_px.map(u64::from), file_bytes: bytes.len() as u64 };
     // The shortest scanline is one pixel and a run.
     claim.weigh(4 * (lines * length) as u64, body.len() as u64, length.max(1) as u64)?;
     let pixels = scanline::decode(body, lines, length).map_err(|reason| broken(path, reason))?;

@@ -34,7 +34,8 @@ fn transform(profile: &ColorProfile, colours: &[f64]) -> Result<Vec<f64>, String
     let is_grey = profile.color_space == DataColorSpace::Gray;
     let layout = if is_grey { Layout::Gray } else { Layout::Rgb };
     let srgb = ColorProfile::new_srgb();
-    let made = profile.create_transform_f64(layout, &srgb, Layout::Rgb, TransformOptions::default());
+    let made =
+        profile.create_transform_f64(layout, &srgb, Layout::Rgb, TransformOptions::default());
     let unusable = |error| format!("its ICC profile cannot be used ({error})");
     let mut moved = vec![0.0; colours.len()];
     let executor = made.map_err(unusable)?;

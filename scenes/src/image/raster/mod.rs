@@ -90,7 +90,7 @@ impl Raster {
                 self.warnings.push(format!("{reason}: its numbers are taken as sRGB"));
             }
         }
-        self.into_gamut();
+        self.keep_in_gamut();
         if let (true, Some(alpha)) = (self.is_multiplied, &self.alpha) {
             for (pixel, alpha) in self.colours.chunks_exact_mut(3).zip(alpha) {
                 pixel.iter_mut().for_each(|value| *value *= alpha);
@@ -107,7 +107,7 @@ impl Raster {
     }
 
     /// A display of sRGB shows 0..1.
-    fn into_gamut(&mut self) {
+    fn keep_in_gamut(&mut self) {
         let mut outside = 0u64;
         for pixel in self.colours.chunks_exact_mut(3) {
             let far = |value: &f64| *value < -HALF_A_STEP || *value > 1.0 + HALF_A_STEP;
@@ -139,7 +139,7 @@ fn split(
     pixels: usize,
 ) -> (Vec<f64>, Option<Vec<f64>>) {
     let mut colours = Vec::with_capacity(3 * pixels);
-    let mut alpha = (channels % 2 == 0).then(|| Vec::with_capacity(pixels));
+    let mut alpha = channels.is_multiple_of(2).then(|| Vec::with_capacity(pixels));
     for (place, value) in values.enumerate() {
         match (place % channels, &mut alpha) {
             (last, Some(alpha)) if last + 1 == channels => alpha.push(value),

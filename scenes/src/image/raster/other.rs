@@ -59,9 +59,8 @@ pub(in super::super) fn read(
 fn values(image: DynamicImage) -> (Vec<f64>, Option<Vec<f64>>) {
     let pixels = image.width() as usize * image.height() as usize;
     let channels = usize::from(image.color().channel_count());
-    let bytes = |values: Vec<u8>| {
-        split(values.into_iter().map(|v| f64::from(v) / 255.0), channels, pixels)
-    };
+    let bytes =
+        |values: Vec<u8>| split(values.into_iter().map(|v| f64::from(v) / 255.0), channels, pixels);
     let words = |values: Vec<u16>| {
         split(values.into_iter().map(|v| f64::from(v) / 65535.0), channels, pixels)
     };
