@@ -27,7 +27,7 @@ fn exits(scene: &Scene) -> Vec<DVec3> {
 
 fn through_gltf(scene: &Scene) -> Scene {
     let folder = tempfile::tempdir().unwrap();
-    let path = write(scene, Format::Gltf, &folder.path().join("out")).unwrap();
+    let path = write(scene, Format::Gltf, &folder.path().join("out")).unwrap().file;
     scenes::find(path.to_str().unwrap()).unwrap()
 }
 

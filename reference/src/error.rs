@@ -4,28 +4,8 @@
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Error {
     /// A body without an inside.
-    #[error(
-        "object \"{object}\": its mesh is open ({edges} edges have no partner), so \"inside the \
-         glass\" has no meaning\nclose it, or make the object opaque (surface = \"unlit\" or \
-         \"lambert\")"
-    )]
-    OpenMesh {
-        /// Name of the object.
-        object: String,
-        /// Edges whose two directions do not occur equally often.
-        edges: usize,
-    },
-    /// A body whose surface faces inwards.
-    #[error(
-        "object \"{object}\": its mesh faces inwards (volume {volume_m3:e} m³), so its inside is \
-         everything else\nreverse the order of its triangles' corners"
-    )]
-    InsideOut {
-        /// Name of the object.
-        object: String,
-        /// Signed volume in the mesh's own space.
-        volume_m3: f64,
-    },
+    #[error(transparent)]
+    NotABody(#[from] scenes::topology::NotABody),
     /// More triangles than a tree can address.
     #[error("the scene has {count} triangles; the reference can hold {most}")]
     TooManyTriangles {

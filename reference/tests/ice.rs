@@ -7,6 +7,7 @@ use common::{cube, furnace, icosphere, object, torus, view};
 use glam::DVec3;
 use reference::{Error, Level, Request, render};
 use scenes::scene::{Air, Bump, Crack, Motion, Normals, Wave};
+use scenes::topology::{NotABody, NotSolid};
 use scenes::{LayerName, Mesh, Rendering, Scene, Shape};
 
 fn ice(mesh: Mesh, normals: Normals) -> Scene {
@@ -106,13 +107,16 @@ fn bodies_without_an_inside_are_refused() {
     let mut open = cube(1);
     open.triangles.pop();
     let answer = render(&ice(open, Normals::Flat), &ask).unwrap_err();
-    assert_eq!(answer, Error::OpenMesh { object: "body".to_owned(), edges: 3 });
+    let reason = NotSolid::Open { boundary_edges: 3, wrong_way: 0 };
+    assert_eq!(answer, Error::NotABody(NotABody { object: "body".to_owned(), reason }));
     let mut inside_out = cube(1);
     inside_out.triangles.iter_mut().for_each(|t| t.swap(0, 1));
     let answer = render(&ice(inside_out, Normals::Flat), &ask).unwrap_err();
-    assert!(
-        matches!(answer, Error::InsideOut { volume_m3, .. } if (volume_m3 + 8.0).abs() < 1e-12)
-    );
+    let Error::NotABody(NotABody { reason: NotSolid::Inverted { signed_volume_m3 }, .. }) = answer
+    else {
+        panic!("{answer}");
+    };
+    assert!((signed_volume_m3 + 8.0).abs() < 1e-12);
     // Nothing at all is a scene too.
     assert!(render(&ice(Mesh::default(), Normals::Flat), &ask).is_ok());
 }

@@ -42,7 +42,7 @@ fn environment(lat_long: LatLong) -> Environment {
 }
 
 fn scene(mesh: &str, normals: Normals) -> Scene {
-    let mesh = scenes::obj::read(&file(&format!("{mesh}.obj"))).unwrap();
+    let mesh = scenes::obj::read(&file(&format!("{mesh}.obj"))).unwrap().mesh;
     let mut scene = furnace(vec![object(Shape::Mesh(mesh), 1, normals)], 1.5);
     scene.camera.eye = DVec3::new(0.0, 0.6, 4.0);
     scene.camera.projection = Projection::Perspective { vertical_fov_deg: 40.0 };

@@ -50,7 +50,7 @@ fn around_ball(radius_m: f64) -> Mesh {
 mod tests {
     use super::*;
     use crate::noise::SplitMix64;
-    use crate::topology::inspect;
+    use crate::topology::solid;
 
     /// How far inside every face plane a point is (the proxies are convex).
     fn depth(mesh: &Mesh, point: DVec3) -> f64 {
@@ -71,7 +71,7 @@ mod tests {
         let mut random = SplitMix64(1);
         for shape in shapes {
             let mesh = shape.proxy_mesh(2.0);
-            assert_eq!(inspect(&mesh).solid(), Ok(()), "{shape:?}");
+            assert_eq!(solid(&mesh), Ok(()), "{shape:?}");
             let mut least = f64::INFINITY;
             for _ in 0..2_000 {
                 let p = DVec3::from_array([0; 3].map(|_| 2.0 * random.uniform() - 1.0));

@@ -65,7 +65,7 @@ pub fn inputs() -> (Vec<Input>, Vec<String>) {
     let path = builtin::asset("bunny.obj");
     if path.exists() {
         match obj::read(&path) {
-            Ok(mesh) => inputs.push(Input::new("bunny", &mesh)),
+            Ok(model) => inputs.push(Input::new("bunny", &model.mesh)),
             Err(error) => left_out.push(format!("bunny is left out: {error}")),
         }
     } else {

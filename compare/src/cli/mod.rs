@@ -10,7 +10,7 @@ mod status;
 
 use crate::Error;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
-use describe::{adapters, export, methods, plan, scenes};
+use describe::{adapters, export, mesh, methods, plan, scenes};
 use judge::{bench, compare, report, study};
 use output::Output;
 use render::{caustics, realtime, reference};
@@ -41,6 +41,7 @@ enum Command {
     Compare(compare::Args),
     Study(study::Args),
     Report(report::Args),
+    Mesh(mesh::Args),
     Export(export::Args),
     Bench(bench::Args),
 }
@@ -58,6 +59,7 @@ impl Command {
             Self::Compare(args) => compare::run(args, output),
             Self::Study(args) => study::run(args, output),
             Self::Report(args) => report::run(args, output),
+            Self::Mesh(args) => mesh::run(args, output),
             Self::Export(args) => export::run(args, output),
             Self::Bench(args) => bench::run(args, output),
         }

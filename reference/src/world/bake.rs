@@ -11,8 +11,8 @@ use glam::{DAffine3, DVec3};
 use scenes::air::bubbles;
 use scenes::crack::cracks;
 use scenes::scene::Normals;
-use scenes::topology::{signed_volume, unbalanced_edges};
-use scenes::{MediumId, Mesh, Object, Scene, Shape, Surface, box_corners};
+use scenes::topology::must_be_body;
+use scenes::{MediumId, Object, Scene, Shape, Surface, box_corners};
 use std::sync::Arc;
 
 impl World {
@@ -94,9 +94,7 @@ impl World {
             self.add_shape(opaque, &shape, object.normals, triangles);
             return Ok(());
         };
-        if let Shape::Mesh(mesh) = shape.as_ref() {
-            must_be_solid(mesh, &object.name)?;
-        }
+        must_be_body(&object.name, &shape)?;
         let host = self.class(Class { medium, priority });
         let solid = Body { bump: object.bump, ..body(index, Role::Solid(host), place) };
         self.add_shape(solid, &shape, object.normals, triangles);
@@ -156,19 +154,6 @@ fn air_in(priority: i32, air: MediumId) -> Class {
 
 fn too_many(count: usize) -> Error {
     Error::TooManyTriangles { count, most: MOST_TRIANGLES }
-}
-
-fn must_be_solid(mesh: &Mesh, object: &str) -> Result<(), Error> {
-    let object = object.to_owned();
-    let edges = unbalanced_edges(mesh);
-    if edges > 0 {
-        return Err(Error::OpenMesh { object, edges });
-    }
-    let volume_m3 = signed_volume(mesh);
-    if volume_m3 < 0.0 {
-        return Err(Error::InsideOut { object, volume_m3 });
-    }
-    Ok(())
 }
 
 fn classes_of(objects: &[(usize, &Object)], air: MediumId) -> Vec<Class> {

@@ -3,14 +3,18 @@
 //! own, roulette off, and the environment's rows doubled because Mitsuba puts
 //! row y at y / (height - 1).
 
-use super::surface::{indexed, numbers, unknown_shape, write_obj};
-use super::{ExportError, Format, write_text};
+use super::surface::{indexed, numbers, without_bounds, write_obj};
+use super::{ExportError, Format, opaque, write_text};
 use crate::{Camera, Environment, Object, Projection, Scene, Shape, environment::LatLong};
 use glam::{DAffine3, DVec3};
 use std::fmt::Write as _;
 use std::path::Path;
 
-pub(super) fn write(scene: &Scene, folder: &Path) -> Result<&'static str, ExportError> {
+pub(super) fn write(
+    scene: &Scene,
+    folder: &Path,
+    notes: &mut Vec<String>,
+) -> Result<&'static str, ExportError> {
     let mut xml = String::from("<scene version=\"3.0.0\">\n");
     let _ = writeln!(xml, "  <!-- {} -->", scene.title.replace("--", "- -"));
     let absorbs = scene.media.iter().any(|medium| medium.absorbs());
@@ -18,7 +22,7 @@ pub(super) fn write(scene: &Scene, folder: &Path) -> Result<&'static str, Export
     xml.push_str(&sensor(&scene.camera));
     xml.push_str(&environment(scene, folder)?);
     for (index, object) in scene.objects.iter().enumerate() {
-        xml.push_str(&shape(scene, object, index, folder)?);
+        xml.push_str(&shape(scene, object, index, folder, notes)?);
     }
     xml.push_str("</scene>\n");
     write_text(&folder.join("scene.xml"), &xml)?;
@@ -104,10 +108,15 @@ fn shape(
     object: &Object,
     index: usize,
     folder: &Path,
+    notes: &mut Vec<String>,
 ) -> Result<String, ExportError> {
     let (kind, detail) = match &*object.shape {
-        Shape::Mesh(_) | Shape::Box { .. } => {
-            let mesh = indexed(object).ok_or_else(|| unknown_shape(Format::Mitsuba, object))?;
+        Shape::Sphere { radius_m } => {
+            ("sphere", format!("<float name=\"radius\" value=\"{radius_m}\"/>"))
+        }
+        _ => {
+            let mesh = indexed(object).ok_or_else(|| without_bounds(Format::Mitsuba, object))?;
+            notes.extend(mesh.told.clone());
             let file = format!("object{index}.obj");
             write_obj(&mesh, &folder.join(&file))?;
             let flat = mesh.normals.is_none();
@@ -118,10 +127,6 @@ fn shape(
                 ),
             )
         }
-        Shape::Sphere { radius_m } => {
-            ("sphere", format!("<float name=\"radius\" value=\"{radius_m}\"/>"))
-        }
-        _ => return Err(unknown_shape(Format::Mitsuba, object)),
     };
     Ok(format!(
         "  <shape type=\"{kind}\">{detail}\n    <transform name=\"to_world\"><matrix value=\"{}\"/></transform>\n{}  </shape>\n",
@@ -132,19 +137,14 @@ fn shape(
 
 fn material(scene: &Scene, object: &Object) -> Result<String, ExportError> {
     let Some(medium) = scene.medium_of(object) else {
-        return Err(ExportError::Inexpressible {
-            format: Format::Mitsuba,
-            what: "the opaque surface".to_owned(),
-            object: object.name.clone(),
-            advice: "only transparent bodies and the environment are exported".to_owned(),
-        });
+        return Err(opaque(Format::Mitsuba, object));
     };
     if medium.is_dispersive() {
         return Err(ExportError::Inexpressible {
             format: Format::Mitsuba,
             what: "the dispersion".to_owned(),
             object: object.name.clone(),
-            advice: "give the medium a constant eta: Mitsuba's dielectric has no dispersion"
+            advice: "pbrt can (--to pbrt), and glTF nearly (--to gltf); or give the medium a constant eta"
                 .to_owned(),
         });
     }

@@ -7,9 +7,10 @@
 mod gltf;
 mod mitsuba;
 mod pbrt;
+mod round_trip;
 mod surface;
 
-use crate::{Scene, Surface};
+use crate::{Object, Scene, Surface};
 use std::path::{Path, PathBuf};
 
 /// Formats that can be written.
@@ -60,30 +61,43 @@ pub enum ExportError {
     },
 }
 
-/// Writes a scene as it stands in frame 0 into a new folder and returns the path
-/// of its main file. For another frame hand over [`Scene::still`].
+/// What was written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Written {
+    /// The main file.
+    pub file: PathBuf,
+    /// What the form could only say nearly, and how near, a sentence each.
+    pub notes: Vec<String>,
+}
+
+/// Writes a scene as it stands in frame 0 into a new folder. For another frame hand over [`Scene::still`].
 ///
 /// The folder appears whole or not at all.
 ///
 /// # Errors
 /// If the format cannot express the scene, or the folder cannot be written.
-pub fn write(scene: &Scene, format: Format, folder: &Path) -> Result<PathBuf, ExportError> {
+pub fn write(scene: &Scene, format: Format, folder: &Path) -> Result<Written, ExportError> {
     if folder.exists() {
         return Err(ExportError::Exists(folder.to_owned()));
     }
     refuse_overlaps(scene, format)?;
     refuse_details(scene, format)?;
+    refuse_surroundings(scene, format)?;
     let scene = &scene.still(0);
     let partial = folder.with_extension(format!("partial-{}", std::process::id()));
     let written = (|| {
         std::fs::create_dir_all(&partial).map_err(|source| write_error(&partial, source))?;
+        let mut notes: Vec<String> = Vec::new();
         let main = match format {
-            Format::Mitsuba => mitsuba::write(scene, &partial)?,
-            Format::Pbrt => pbrt::write(scene, &partial)?,
-            Format::Gltf => gltf::write(scene, &partial)?,
+            Format::Mitsuba => mitsuba::write(scene, &partial, &mut notes)?,
+            Format::Pbrt => pbrt::write(scene, &partial, &mut notes)?,
+            Format::Gltf => gltf::write(scene, &partial, &mut notes)?,
         };
+        if format == Format::Gltf {
+            notes.extend(round_trip::told(scene, &partial.join(main)));
+        }
         std::fs::rename(&partial, folder).map_err(|source| write_error(folder, source))?;
-        Ok(folder.join(main))
+        Ok(Written { file: folder.join(main), notes })
     })();
     if written.is_err() {
         // The partial folder is ours alone; that it may linger is no second error.
@@ -138,6 +152,37 @@ fn refuse_details(scene: &Scene, format: Format) -> Result<(), ExportError> {
         }
     }
     Ok(())
+}
+
+/// What fills the space outside all bodies: an index can be said to Mitsuba alone,
+/// absorption and dispersion to none.
+fn refuse_surroundings(scene: &Scene, format: Format) -> Result<(), ExportError> {
+    let outside = &scene.media[0];
+    let refused = |what: String, advice: &str| {
+        let (object, advice) = ("surroundings".to_owned(), advice.to_owned());
+        Err(ExportError::Inexpressible { format, what, object, advice })
+    };
+    if outside.absorbs() || outside.is_dispersive() {
+        let which = if outside.absorbs() { "absorption" } else { "dispersion" };
+        return refused(format!("the {which}"), "no format can: write a medium without it");
+    }
+    if outside.eta.get() != 1.0 && format != Format::Mitsuba {
+        let what = format!("the index {}", outside.eta.get());
+        return refused(what, "Mitsuba can (--to mitsuba), or remove [surroundings] medium");
+    }
+    Ok(())
+}
+
+/// The error for a surface that only glTF can say.
+fn opaque(format: Format, object: &Object) -> ExportError {
+    ExportError::Inexpressible {
+        format,
+        what: "the opaque surface".to_owned(),
+        object: object.name.clone(),
+        advice: "glTF can (--to gltf); only transparent bodies and the environment are written \
+                 for other renderers"
+            .to_owned(),
+    }
 }
 
 #[cfg(test)]

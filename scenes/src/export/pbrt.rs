@@ -3,15 +3,19 @@
 //! square equal-area map of the sphere (Clarberg, "Fast equal-area mapping of
 //! the (hemi)sphere using SIMD", Journal of Graphics Tools 13(3), 2008).
 
-use super::surface::{indexed, numbers, unknown_shape};
-use super::{ExportError, Format, write_text};
-use crate::{Camera, Environment, Object, Projection, Scene, Shape, environment::Map};
+use super::surface::{indexed, numbers, without_bounds};
+use super::{ExportError, Format, opaque, write_text};
+use crate::{Camera, Environment, Medium, Object, Projection, Scene, Shape, environment::Map};
 use glam::{DMat4, DVec3};
 use std::f64::consts::FRAC_PI_4;
 use std::fmt::Write as _;
 use std::path::Path;
 
-pub(super) fn write(scene: &Scene, folder: &Path) -> Result<&'static str, ExportError> {
+pub(super) fn write(
+    scene: &Scene,
+    folder: &Path,
+    notes: &mut Vec<String>,
+) -> Result<&'static str, ExportError> {
     let absorbs = scene.media.iter().any(|medium| medium.absorbs());
     let integrator = if absorbs { "volpath" } else { "path" };
     let [width, height] = scene.camera.resolution_px;
@@ -26,7 +30,7 @@ pub(super) fn write(scene: &Scene, folder: &Path) -> Result<&'static str, Export
     text.push_str("WorldBegin\n");
     text.push_str(&environment(scene, folder)?);
     for object in &scene.objects {
-        text.push_str(&shape(scene, object)?);
+        text.push_str(&shape(scene, object, notes)?);
     }
     write_text(&folder.join("scene.pbrt"), &text)?;
     Ok("scene.pbrt")
@@ -88,22 +92,8 @@ fn equal_area_direction(at: [f64; 2]) -> DVec3 {
     DVec3::new((phi.cos() * horizontal).copysign(u), (phi.sin() * horizontal).copysign(v), z)
 }
 
-fn shape(scene: &Scene, object: &Object) -> Result<String, ExportError> {
-    let medium = scene.medium_of(object).ok_or_else(|| ExportError::Inexpressible {
-        format: Format::Pbrt,
-        what: "the opaque surface".to_owned(),
-        object: object.name.clone(),
-        advice: "only transparent bodies and the environment are exported".to_owned(),
-    })?;
-    let outside = &scene.media[0];
-    if outside.eta.get() != 1.0 {
-        return Err(ExportError::Inexpressible {
-            format: Format::Pbrt,
-            what: format!("the surrounding index {}", outside.eta.get()),
-            object: object.name.clone(),
-            advice: "pbrt's dielectric stands in vacuum; remove [surroundings] medium".to_owned(),
-        });
-    }
+fn shape(scene: &Scene, object: &Object, notes: &mut Vec<String>) -> Result<String, ExportError> {
+    let medium = scene.medium_of(object).ok_or_else(|| opaque(Format::Pbrt, object))?;
     let mut text = String::from("AttributeBegin\n");
     if medium.absorbs() {
         let sigma = numbers(medium.absorption_per_m.to_array());
@@ -115,17 +105,37 @@ fn shape(scene: &Scene, object: &Object) -> Result<String, ExportError> {
     }
     let columns = DMat4::from(object.world_from_object).to_cols_array();
     let _ = writeln!(text, "  Transform [ {} ]", numbers(columns));
-    let _ = writeln!(text, "  Material \"dielectric\" \"float eta\" {}", medium.eta.get());
-    text.push_str(&geometry(object)?);
+    let _ = writeln!(text, "  Material \"dielectric\" {}", eta(medium, notes));
+    text.push_str(&geometry(object, notes)?);
     text.push_str("AttributeEnd\n");
     Ok(text)
 }
 
-fn geometry(object: &Object) -> Result<String, ExportError> {
+/// The index: one number, or its values over the wavelengths that pbrt samples, in
+/// nanometres, with straight lines between.
+fn eta(medium: &Medium, notes: &mut Vec<String>) -> String {
+    const STEP_NM: f64 = 5.0;
+    if !medium.is_dispersive() {
+        return format!("\"float eta\" {}", medium.eta.get());
+    }
+    let at = |nm: f64| medium.eta_at(nm * 1e-3);
+    let steps: Vec<f64> = (0..=94).map(|i| 360.0 + STEP_NM * f64::from(i)).collect();
+    let bend = |nm: &f64| (at(nm + 0.5 * STEP_NM) - 0.5 * (at(*nm) + at(nm + STEP_NM))).abs();
+    let largest = steps.iter().map(bend).fold(0.0, f64::max);
+    notes.push(format!(
+        "the index of \"{}\" is written every {STEP_NM} nm: between, it is off by up to {largest:.1e}",
+        medium.name
+    ));
+    let pairs = numbers(steps.iter().flat_map(|nm| [*nm, at(*nm)]));
+    format!("\"spectrum eta\" [ {pairs} ]")
+}
+
+fn geometry(object: &Object, notes: &mut Vec<String>) -> Result<String, ExportError> {
     if let Shape::Sphere { radius_m } = *object.shape {
         return Ok(format!("  Shape \"sphere\" \"float radius\" {radius_m}\n"));
     }
-    let mesh = indexed(object).ok_or_else(|| unknown_shape(Format::Pbrt, object))?;
+    let mesh = indexed(object).ok_or_else(|| without_bounds(Format::Pbrt, object))?;
+    notes.extend(mesh.told);
     let points = numbers(mesh.positions.iter().flat_map(|p| p.to_array()));
     let indices = numbers(mesh.triangles.iter().flatten().map(|i| f64::from(*i)));
     let normals = mesh.normals.map_or_else(String::new, |normals| {

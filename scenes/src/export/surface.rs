@@ -3,36 +3,89 @@
 
 use super::{ExportError, Format, write_text};
 use crate::{Mesh, Object, Shape, generate, normals, scene::Normals};
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use std::collections::HashMap;
 use std::fmt::Write as _;
 use std::path::Path;
 
+/// Divisions of the icosahedron's edges that stand for a ball: 81,920 triangles.
+const BALL: u32 = 64;
+/// Sides that stand for a cylinder.
+const ROUND: u32 = 512;
+/// Edges sharper than this stay sharp, degrees.
+const CREASE_DEG: f64 = 40.0;
+
 /// A mesh whose vertices carry at most one normal each.
 pub(super) struct Indexed {
+    /// How far it is from the shape that it stands for, if it is not that shape.
+    pub(super) told: Option<String>,
     pub(super) positions: Vec<DVec3>,
     pub(super) normals: Option<Vec<DVec3>>,
     pub(super) triangles: Vec<[u32; 3]>,
 }
 
-/// The object's triangles; `None` for shapes that have none. A box has twelve,
-/// which are flat.
+/// The object's triangles; `None` for shapes without bounds. A box has twelve, which
+/// are flat; a ball and a cylinder have enough to look round, with exact normals at
+/// their corners.
 pub(super) fn indexed(object: &Object) -> Option<Indexed> {
-    if let Shape::Box { half_extent_m } = *object.shape {
-        let Mesh { positions, triangles, .. } = generate::cuboid(half_extent_m);
-        return Some(Indexed { positions, triangles, normals: None });
+    match *object.shape {
+        Shape::Box { half_extent_m } => {
+            let Mesh { positions, triangles, .. } = generate::cuboid(half_extent_m);
+            Some(Indexed { told: None, positions, triangles, normals: None })
+        }
+        Shape::Sphere { radius_m } => Some(ball(object, radius_m)),
+        Shape::Cylinder { radius_m, half_height_m } => {
+            Some(cylinder(object, radius_m, half_height_m))
+        }
+        Shape::Slab { .. } | Shape::HalfSpace => None,
+        Shape::Mesh(ref mesh) => Some(of_mesh(mesh, object.normals)),
     }
-    let mesh = object.shape.mesh()?;
-    let Some(corner) = mesh.normals.as_ref().filter(|_| object.normals == Normals::Smooth) else {
-        let normals = (object.normals == Normals::Smooth).then(|| normals::smooth(mesh).values);
-        return Some(Indexed {
+}
+
+fn ball(object: &Object, radius_m: f64) -> Indexed {
+    let Mesh { positions, triangles, .. } = generate::geodesic(BALL);
+    let unit = Mesh { positions, triangles, normals: None };
+    let depth = |i: usize| 1.0 - unit.corners(i)[0].dot(unit.area_vector(i).normalize_or_zero());
+    let deepest = (0..unit.triangles.len()).map(depth).fold(0.0, f64::max);
+    Indexed {
+        told: Some(within(object, "ball", unit.triangles.len(), deepest)),
+        positions: unit.positions.iter().map(|p| *p * radius_m).collect(),
+        normals: Some(unit.positions),
+        triangles: unit.triangles,
+    }
+}
+
+fn cylinder(object: &Object, radius_m: f64, half_height_m: f64) -> Indexed {
+    let (r, h) = (radius_m, half_height_m);
+    let profile = [(0.0, -h), (r, -h), (r, h), (0.0, h)].map(|(x, y)| DVec2::new(x, y));
+    let mut mesh = generate::revolve(&profile, ROUND, false);
+    mesh.normals = Some(normals::creased(&mesh, CREASE_DEG));
+    let deepest = 1.0 - (std::f64::consts::PI / f64::from(ROUND)).cos();
+    let told = Some(within(object, "cylinder", mesh.triangles.len(), deepest));
+    Indexed { told, ..of_mesh(&mesh, Normals::Smooth) }
+}
+
+fn within(object: &Object, kind: &str, triangles: usize, deepest: f64) -> String {
+    format!(
+        "the {kind} \"{}\" is written as {triangles} triangles, which lie up to {deepest:.1e} of \
+         its radius below its surface",
+        object.name
+    )
+}
+
+fn of_mesh(mesh: &Mesh, shading: Normals) -> Indexed {
+    let is_smooth = shading == Normals::Smooth;
+    let Some(corner) = mesh.normals.as_ref().filter(|_| is_smooth) else {
+        return Indexed {
+            told: None,
             positions: mesh.positions.clone(),
-            normals,
+            normals: is_smooth.then(|| normals::smooth(mesh).values),
             triangles: mesh.triangles.clone(),
-        });
+        };
     };
     let mut numbers = HashMap::new();
-    let mut split = Indexed { positions: vec![], normals: Some(vec![]), triangles: vec![] };
+    let mut split =
+        Indexed { told: None, positions: vec![], normals: Some(vec![]), triangles: vec![] };
     for (triangle, normals) in mesh.triangles.iter().zip(&corner.indices) {
         split.triangles.push([0, 1, 2].map(|corner_index| {
             let key = (triangle[corner_index], normals[corner_index]);
@@ -43,7 +96,7 @@ pub(super) fn indexed(object: &Object) -> Option<Indexed> {
             })
         }));
     }
-    Some(split)
+    split
 }
 
 /// Writes Wavefront OBJ with as many digits as an f64 has.
@@ -65,21 +118,19 @@ pub(super) fn write_obj(indexed: &Indexed, path: &Path) -> Result<(), ExportErro
     write_text(path, &text)
 }
 
-/// The error for a shape that the format has no word for.
-pub(super) fn unknown_shape(format: Format, object: &Object) -> ExportError {
-    let what = match &*object.shape {
-        Shape::Mesh(_) => "the mesh",
-        Shape::Sphere { .. } => "the analytic sphere",
-        Shape::Slab { .. } => "the unbounded slab",
+/// The error for a shape without bounds, which no format has a word for.
+pub(super) fn without_bounds(format: Format, object: &Object) -> ExportError {
+    let what = match *object.shape {
         Shape::HalfSpace => "the half-space",
-        Shape::Box { .. } => "the analytic box",
-        Shape::Cylinder { .. } => "the analytic cylinder",
+        _ => "the unbounded slab",
     };
     ExportError::Inexpressible {
         format,
         what: what.to_owned(),
         object: object.name.clone(),
-        advice: "replace it by a mesh, for example a built-in of the same form".to_owned(),
+        advice: "no format can: write box = { half_extent_m = [x, y, z] }, wider than the camera \
+                 sees"
+            .to_owned(),
     }
 }
 

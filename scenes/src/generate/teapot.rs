@@ -11,7 +11,7 @@
 
 use super::grid::add_patch;
 use crate::Mesh;
-use crate::topology::{boundary_loops, clean, weld};
+use crate::topology::{clean, rims, weld};
 use glam::{DVec2, DVec3};
 
 /// (radius, height) of the body's profile from the bottom's centre to the rim.
@@ -109,7 +109,8 @@ fn metres(mesh: &Mesh) -> Mesh {
 
 /// Closes every open ring by a flat polygon, which must be convex.
 fn capped(mut tube: Mesh) -> Mesh {
-    for ring in boundary_loops(&tube) {
+    for ring in rims(&tube) {
+        let ring = ring.vertices;
         // A strip that zigzags across, so that the triangles stay fat.
         let (mut low, mut high) = (0, ring.len() - 1);
         while high - low > 1 {

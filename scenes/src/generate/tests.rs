@@ -1,7 +1,7 @@
 #![allow(clippy::unwrap_used, reason = "a missing built-in is what the tests are for")]
 
 use super::*;
-use crate::topology::{Report, clean, inspect, is_convex};
+use crate::topology::{Report, clean, inspect, is_convex, solid};
 use glam::DVec2;
 
 /// Built-ins that do not bound a solid, on purpose.
@@ -55,7 +55,7 @@ fn unknown_names_are_refused() {
 fn solids_are_closed_face_outwards_and_are_clean() {
     for (name, mesh) in solids() {
         let report = inspect(&mesh);
-        assert_eq!(report.solid(), Ok(()), "{name}: {report:?}");
+        assert_eq!(solid(&mesh), Ok(()), "{name}: {report:?}");
         assert_eq!(report.is_manifold(), name != "edge-to-edge", "{name}: {report:?}");
         assert_eq!((report.degenerate, report.duplicate), (0, 0), "{name}");
     }
@@ -101,7 +101,7 @@ fn newells_teapot_is_open_as_published() {
     let mesh = builtin("teapot-newell").unwrap();
     let report = inspect(&mesh);
     assert_eq!((report.boundary_edges, report.degenerate), (240, 120));
-    assert!(!report.is_closed() && report.solid().is_err());
+    assert!(!report.is_closed() && solid(&mesh).is_err());
     assert_eq!(clean(&mesh).0.triangles.len(), 14_280);
 }
 
@@ -205,9 +205,9 @@ fn analytic_shapes_can_be_triangulated() {
         (Shape::Sphere { radius_m: 2.0 }, 32.0 / 3.0 * pi, 1e-3),
         (Shape::Cylinder { radius_m: 0.5, half_height_m: 1.0 }, 0.5 * pi, 1e-3),
     ] {
-        let report = inspect(&triangulated(&shape).unwrap());
-        assert_eq!(report.solid(), Ok(()), "{shape:?}");
-        let found = report.signed_volume_m3;
+        let mesh = triangulated(&shape).unwrap();
+        assert_eq!(solid(&mesh), Ok(()), "{shape:?}");
+        let found = inspect(&mesh).signed_volume_m3;
         assert!((found / volume_m3 - 1.0).abs() <= within, "{shape:?}: {found}");
     }
     assert_eq!(triangulated(&Shape::HalfSpace), None);

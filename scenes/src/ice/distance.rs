@@ -31,13 +31,16 @@ pub fn clearance_m(shape: &Shape, p: DVec3) -> f64 {
 /// Transactions on Biomedical Engineering 30 (2), 1983.
 #[must_use]
 pub fn winding(mesh: &Mesh, point: DVec3) -> f64 {
-    let solid_angle: f64 = (0..mesh.triangles.len())
-        .map(|index| {
-            let [a, b, c] = mesh.corners(index).map(|p| (p - point).normalize_or_zero());
-            2.0 * a.dot(b.cross(c)).atan2(1.0 + a.dot(b) + b.dot(c) + c.dot(a))
-        })
-        .sum();
-    solid_angle / (4.0 * std::f64::consts::PI)
+    let triangles = 0..mesh.triangles.len();
+    let sum: f64 = triangles.map(|index| solid_angle(mesh.corners(index), point)).sum();
+    sum / (4.0 * std::f64::consts::PI)
+}
+
+/// Solid angle of a triangle seen from a point, steradians, positive seen from
+/// behind. Source: as [`winding`].
+pub(crate) fn solid_angle(corners: [DVec3; 3], point: DVec3) -> f64 {
+    let [a, b, c] = corners.map(|p| (p - point).normalize_or_zero());
+    2.0 * a.dot(b.cross(c)).atan2(1.0 + a.dot(b) + b.dot(c) + c.dot(a))
 }
 
 /// Distance from a point to a triangle, metres.

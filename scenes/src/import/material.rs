@@ -5,46 +5,7 @@ use crate::scene::Paint;
 use crate::{Dispersion, Eta, Medium, MediumId, Surface};
 use glam::DVec3;
 
-/// Extensions whose absence from the image would be noticed, and what to do.
-const REFUSED: [(&str, &str); 11] = [
-    ("KHR_draco_mesh_compression", "export without mesh compression"),
-    ("EXT_meshopt_compression", "export without mesh compression"),
-    ("KHR_mesh_quantization", "export positions as 32-bit floats"),
-    ("EXT_mesh_gpu_instancing", "export instances as nodes"),
-    ("KHR_materials_clearcoat", "take the coat out of the material"),
-    ("KHR_materials_sheen", "take the sheen out of the material"),
-    ("KHR_materials_iridescence", "take the iridescence out of the material"),
-    ("KHR_materials_anisotropy", "take the anisotropy out of the material"),
-    ("KHR_materials_specular", "glass reflects what its index says: take the extension out"),
-    ("KHR_materials_diffuse_transmission", "only clear glass is rendered"),
-    ("KHR_materials_pbrSpecularGlossiness", "write pbrMetallicRoughness"),
-];
-/// Extensions that are read.
-const KNOWN: [&str; 4] = [
-    "KHR_materials_ior",
-    "KHR_materials_transmission",
-    "KHR_materials_volume",
-    "KHR_materials_dispersion",
-];
-
 impl Reader<'_> {
-    /// Stops at extensions that change what is seen and are not read; warns of
-    /// the others.
-    pub(super) fn refuse_extensions(
-        &mut self,
-        document: &gltf::Document,
-    ) -> Result<(), ImportError> {
-        for used in document.extensions_used() {
-            if let Some((name, instead)) = REFUSED.iter().find(|(name, _)| *name == used) {
-                return Err(self.wrong(name, &format!("it is not rendered; {instead}")));
-            }
-            if !KNOWN.contains(&used) {
-                self.scene.warnings.push(format!("{used} is not read"));
-            }
-        }
-        Ok(())
-    }
-
     pub(super) fn surface_of(
         &mut self,
         material: &gltf::Material<'_>,
@@ -54,6 +15,10 @@ impl Reader<'_> {
         let transmission = material.transmission().map_or(0.0, |t| t.transmission_factor());
         if transmission == 0.0 {
             return self.opaque(material, &name);
+        }
+        if material.emissive_factor() != [0.0; 3] {
+            let what = "glass that glows is not rendered; write emissiveFactor [0, 0, 0]";
+            return Err(self.wrong(&name, what));
         }
         if transmission < 1.0 {
             let what = format!(
@@ -73,7 +38,11 @@ impl Reader<'_> {
 
     /// Nothing varies over the surface, nothing is see-through without being
     /// glass, nothing is metal.
-    fn must_be_plain(&self, material: &gltf::Material<'_>, name: &str) -> Result<(), ImportError> {
+    fn must_be_plain(
+        &mut self,
+        material: &gltf::Material<'_>,
+        name: &str,
+    ) -> Result<(), ImportError> {
         let pbr = material.pbr_metallic_roughness();
         let textures = [
             ("baseColorTexture", pbr.base_color_texture().is_some()),
@@ -89,6 +58,9 @@ impl Reader<'_> {
                 material.volume().is_some_and(|v| v.thickness_texture().is_some()),
             ),
         ];
+        if material.occlusion_texture().is_some() {
+            self.warn(format!("{name}: occlusionTexture is not read"));
+        }
         if let Some((texture, _)) = textures.iter().find(|(_, there)| *there) {
             let what = format!("{texture} is not rendered; write the factor alone");
             return Err(self.wrong(name, &what));
@@ -137,7 +109,11 @@ impl Reader<'_> {
     fn opaque(&self, material: &gltf::Material<'_>, name: &str) -> Result<Surface, ImportError> {
         let [r, g, b, _] = material.pbr_metallic_roughness().base_color_factor().map(f64::from);
         let albedo = DVec3::new(r, g, b);
-        let radiance = DVec3::from_array(material.emissive_factor().map(f64::from));
+        if material.extension_value("KHR_materials_unlit").is_some() {
+            return Ok(Surface::Unlit { radiance: Paint::Constant(albedo) });
+        }
+        let radiance = DVec3::from_array(material.emissive_factor().map(f64::from))
+            * self.emissive_strength(material, name)?;
         if radiance == DVec3::ZERO {
             return Ok(Surface::Lambert { albedo: Paint::Constant(albedo) });
         }
@@ -149,8 +125,31 @@ impl Reader<'_> {
         Err(self.wrong(name, what))
     }
 
+    /// What `KHR_materials_emissive_strength` multiplies the emission by.
+    fn emissive_strength(
+        &self,
+        material: &gltf::Material<'_>,
+        name: &str,
+    ) -> Result<f64, ImportError> {
+        let Some(value) = material
+            .extension_value("KHR_materials_emissive_strength")
+            .and_then(|value| value.get("emissiveStrength"))
+        else {
+            return Ok(1.0);
+        };
+        value.as_f64().filter(|strength| *strength >= 0.0).ok_or_else(|| {
+            self.wrong(name, &format!("emissiveStrength {value} is no number from 0 upwards"))
+        })
+    }
+
     fn medium_of(&self, material: &gltf::Material<'_>) -> Result<Medium, ImportError> {
         let name = material.name().unwrap_or("glass").to_owned();
+        if material.ior() == Some(0.0) {
+            let what = "ior 0 is the extension's word for a surface that reflects everything, as \
+                        materials of the specular-glossiness kind may; that is no glass: write \
+                        its index, such as 1.5";
+            return Err(self.wrong(&name, what));
+        }
         let eta = Eta::try_from(f64::from(material.ior().unwrap_or(1.5)))
             .map_err(|error| self.wrong(&name, &error.to_string()))?;
         let mut medium = Medium::plain(&name, eta);

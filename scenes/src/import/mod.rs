@@ -6,13 +6,17 @@
 //! file holds and no renderer can show (rough glass, textures, skins) is an
 //! error; what the image does not depend on is a warning.
 
+mod accessor;
 pub(crate) mod error;
+mod extensions;
 mod extras;
+mod light;
 mod material;
 mod mesh;
 #[cfg(test)]
 mod tests;
 
+use crate::obj::Model;
 use crate::scene::{Normals, Sequence, Source};
 use crate::{Camera, Environment, Medium, Object, Projection, Scene, Shape};
 use extras::Extras;
@@ -24,6 +28,7 @@ pub use error::ImportError;
 
 struct Reader<'a> {
     file: String,
+    document: &'a gltf::Document,
     buffers: &'a [gltf::buffer::Data],
     scene: Scene,
 }
@@ -61,8 +66,30 @@ pub fn read(
     File::open(path)?.scene(path, environment, resolution_px)
 }
 
+/// The meshes of a file by name, as they are before nodes place them, whatever they
+/// are made of.
+///
+/// # Errors
+/// As [`read`], but for what is said of materials.
+pub fn meshes(path: &Path) -> Result<Vec<(String, Model)>, ImportError> {
+    let file = File::open(path)?;
+    let scene = empty("", path, Environment::Uniform(DVec3::ONE));
+    let reader = file.reader(path, scene);
+    let mut found = Vec::new();
+    for mesh in file.document.meshes() {
+        for primitive in mesh.primitives() {
+            let name = name_of(&mesh);
+            let model = reader.mesh_of(&primitive, &name)?;
+            found.push((name, model));
+        }
+    }
+    Ok(found)
+}
+
 /// A file that has been parsed.
 struct File {
+    /// What its extensions call for.
+    warnings: Vec<String>,
     document: gltf::Document,
     buffers: Vec<gltf::buffer::Data>,
 }
@@ -73,9 +100,22 @@ impl File {
             file: path.display().to_string(),
             source: Box::new(source),
         };
-        let gltf::Gltf { document, blob } = gltf::Gltf::open(path).map_err(failed)?;
+        let io = |source| failed(gltf::Error::Io(source));
+        let file = std::io::BufReader::new(std::fs::File::open(path).map_err(io)?);
+        // The crate's own validation refuses extensions that are read here, and would do so
+        // before anyone can say what to do about the others.
+        let gltf::Gltf { document, blob } =
+            gltf::Gltf::from_reader_without_validation(file).map_err(failed)?;
+        let warnings = extensions::check(&document, &path.display().to_string())?;
+        extensions::validate(&document).map_err(failed)?;
         let buffers = gltf::import_buffers(&document, path.parent(), blob).map_err(failed)?;
-        Ok(Self { document, buffers })
+        Ok(Self { warnings, document, buffers })
+    }
+
+    fn reader(&self, path: &Path, mut scene: Scene) -> Reader<'_> {
+        scene.warnings.clone_from(&self.warnings);
+        let file = path.display().to_string();
+        Reader { file, document: &self.document, buffers: &self.buffers, scene }
     }
 
     fn scene(
@@ -84,12 +124,9 @@ impl File {
         environment: Environment,
         resolution_px: [u32; 2],
     ) -> Result<Scene, ImportError> {
-        let file = path.display().to_string();
         let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
-        let name = stem.unwrap_or_else(|| file.clone());
-        let scene = empty(&name, path, environment);
-        let mut reader = Reader { file, buffers: &self.buffers, scene };
-        reader.refuse_extensions(&self.document)?;
+        let name = stem.unwrap_or_else(|| path.display().to_string());
+        let mut reader = self.reader(path, empty(&name, path, environment));
         let mut camera = None;
         let scene = self.document.default_scene().or_else(|| self.document.scenes().next());
         for node in scene.iter().flat_map(gltf::Scene::nodes) {
@@ -99,7 +136,10 @@ impl File {
             return Err(reader.wrong("scene", "it holds no mesh; export it with its meshes"));
         }
         if self.document.animations().next().is_some() {
-            reader.scene.warnings.push("animations are not read: everything rests".to_owned());
+            reader.warn("animations are not read: everything rests".to_owned());
+        }
+        if self.document.scenes().len() > 1 {
+            reader.warn("the file's other scenes are not read".to_owned());
         }
         let mut hash = Sha256::new();
         self.buffers.iter().for_each(|buffer| hash.update(&buffer.0));
@@ -138,6 +178,13 @@ impl Reader<'_> {
         }
     }
 
+    /// Tells the user something, once.
+    fn warn(&mut self, what: String) {
+        if !self.scene.warnings.contains(&what) {
+            self.scene.warnings.push(what);
+        }
+    }
+
     fn add_node(
         &mut self,
         node: &gltf::Node<'_>,
@@ -146,9 +193,12 @@ impl Reader<'_> {
     ) -> Result<(), ImportError> {
         let local = DMat4::from_cols_array_2d(&node.transform().matrix().map(|c| c.map(f64::from)));
         let world = parent * local;
-        if let (None, Some(found)) = (&camera, node.camera()) {
-            *camera = Some(camera_of(&found, world));
+        match (&camera, node.camera()) {
+            (None, Some(found)) => *camera = Some(camera_of(&found, world)),
+            (Some(_), Some(_)) => self.warn("cameras after the first are not read".to_owned()),
+            _ => {}
         }
+        self.add_light(node, world)?;
         let node_name = node.name().unwrap_or("a node without a name");
         if node.skin().is_some() {
             return Err(
@@ -157,9 +207,7 @@ impl Reader<'_> {
         }
         if let Some(mesh) = node.mesh() {
             for primitive in mesh.primitives() {
-                let name =
-                    mesh.name().map_or_else(|| format!("mesh {}", mesh.index()), str::to_owned);
-                self.add_primitive(&primitive, name, world)?;
+                self.add_primitive(&primitive, name_of(&mesh), world)?;
             }
         }
         node.children().try_for_each(|child| self.add_node(&child, world, camera))
@@ -171,15 +219,11 @@ impl Reader<'_> {
         name: String,
         world: DMat4,
     ) -> Result<(), ImportError> {
-        if primitive.mode() != gltf::mesh::Mode::Triangles {
-            let mode = primitive.mode();
-            let what = format!("{mode:?} are not rendered; export plain triangles");
-            return Err(self.wrong(&name, &what));
+        let Model { mesh, warnings, .. } = self.mesh_of(primitive, &name)?;
+        warnings.iter().for_each(|warning| self.warn(format!("{name}: {warning}")));
+        if primitive.get(&gltf::Semantic::Colors(0)).is_some() {
+            self.warn(format!("{name}: colours of vertices are not read"));
         }
-        if primitive.morph_targets().next().is_some() {
-            return Err(self.wrong(&name, "morph targets are not rendered; apply them and export"));
-        }
-        let mesh = self.mesh_of(primitive, &name)?;
         let normals = if mesh.normals.is_some() { Normals::Smooth } else { Normals::Flat };
         let surface = self.surface_of(&primitive.material())?;
         self.scene.objects.push(Object {
@@ -190,6 +234,10 @@ impl Reader<'_> {
         });
         Ok(())
     }
+}
+
+fn name_of(mesh: &gltf::Mesh<'_>) -> String {
+    mesh.name().map_or_else(|| format!("mesh {}", mesh.index()), str::to_owned)
 }
 
 fn camera_of(camera: &gltf::Camera<'_>, world: DMat4) -> Camera {

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 /// A built-in scene as a glTF file in a folder, changed by `edit`.
 fn written(folder: &Path, edit: impl FnOnce(&mut Value)) -> PathBuf {
     let scene = crate::builtin("uniform-cup").unwrap();
-    let main = write(&scene, Format::Gltf, &folder.join("out")).unwrap();
+    let main = write(&scene, Format::Gltf, &folder.join("out")).unwrap().file;
     let mut root: Value = serde_json::from_str(&std::fs::read_to_string(&main).unwrap()).unwrap();
     edit(&mut root);
     std::fs::write(&main, root.to_string()).unwrap();
@@ -104,13 +104,167 @@ fn what_cannot_be_rendered_is_refused_with_a_way_out() {
         root["scenes"][0]["extras"] = json!({ "environmentMap": "gone.exr" });
     });
     assert!(error.contains("gone.exr"), "{error}");
-    // Unread and harmless: a warning.
+    let error = refused(extension("KHR_materials_ior", json!({ "ior": 0.0 })));
+    assert!(error.contains("reflects everything") && error.contains("1.5"), "{error}");
+    let error = refused(material(json!({ "emissiveFactor": [1.0, 1.0, 1.0] })));
+    assert!(error.contains("glows"), "{error}");
+}
+
+fn warnings(edit: impl FnOnce(&mut Value)) -> Vec<String> {
+    let folder = tempfile::tempdir().unwrap();
+    load(&written(folder.path(), edit)).unwrap().warnings
+}
+
+#[test]
+fn what_is_not_read_and_harmless_is_a_warning() {
+    assert_eq!(warnings(|_| ()), [""; 0]);
+    let found = warnings(|root| {
+        root["extensionsUsed"].as_array_mut().unwrap().push(json!("EXT_unheard_of"));
+        root["nodes"].as_array_mut().unwrap().push(json!({ "camera": 0 }));
+        root["scenes"][0]["nodes"].as_array_mut().unwrap().push(json!(2));
+        let position = root["meshes"][0]["primitives"][0]["attributes"]["POSITION"].clone();
+        root["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = position;
+        let scene = root["scenes"][0].clone();
+        root["scenes"].as_array_mut().unwrap().push(scene);
+    });
+    for word in ["EXT_unheard_of", "cameras", "colours of vertices", "other scenes"] {
+        assert!(found.iter().any(|warning| warning.contains(word)), "{word}: {found:?}");
+    }
+    assert_eq!(found.len(), 4, "{found:?}");
+}
+
+/// The advice comes also where the file cannot be read without the extension.
+#[test]
+fn compressed_meshes_are_refused_with_advice_also_where_required() {
+    for name in ["KHR_draco_mesh_compression", "EXT_meshopt_compression"] {
+        for required in [false, true] {
+            let error = refused(|root| {
+                root["extensionsUsed"].as_array_mut().unwrap().push(json!(name));
+                if required {
+                    root["extensionsRequired"] = json!([name]);
+                }
+            });
+            assert!(error.contains(name), "{error}");
+            assert!(error.contains("export without mesh compression"), "{error}");
+        }
+    }
+    let error = refused(|root| root["extensionsRequired"] = json!(["EXT_unheard_of"]));
+    assert!(error.contains("EXT_unheard_of") && error.contains("export without it"), "{error}");
+}
+
+/// Bodies whose vectors are stored as whole numbers are the bodies of the floats.
+#[test]
+fn quantised_meshes_are_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let sent = Scene::in_white_light(
+        "cube",
+        Camera::fitted([DVec3::NEG_ONE, DVec3::ONE], [8, 8]),
+        vec![Medium::vacuum(), Medium::plain("glass", crate::Eta::try_from(1.5).unwrap())],
+        vec![Object::solid("cube", Shape::Mesh(crate::generate::cube(1)), crate::MediumId(1))],
+    );
+    let main = write(&sent, Format::Gltf, &folder.path().join("out")).unwrap().file;
+    let plain = load(&main).unwrap();
+    let mut root: Value = serde_json::from_str(&std::fs::read_to_string(&main).unwrap()).unwrap();
+    let mut bytes = std::fs::read(main.with_file_name("scene.bin")).unwrap();
+    let start = bytes.len();
+    for index in &crate::generate::cube(1).positions {
+        for value in index.to_array() {
+            // -32768 and -32767 are both -1.
+            let whole = if value < 0.0 { i16::MIN } else { i16::MAX };
+            bytes.extend(whole.to_le_bytes());
+        }
+        bytes.extend([0; 2]);
+    }
+    std::fs::write(main.with_file_name("scene.bin"), &bytes).unwrap();
+    root["buffers"][0]["byteLength"] = json!(bytes.len());
+    root["bufferViews"]
+        .as_array_mut()
+        .unwrap()
+        .push(json!({ "buffer": 0, "byteOffset": start, "byteLength": 64, "byteStride": 8 }));
+    let view = root["bufferViews"].as_array().unwrap().len() - 1;
+    let position = &root["meshes"][0]["primitives"][0]["attributes"]["POSITION"];
+    let position = usize::try_from(position.as_u64().unwrap()).unwrap();
+    for required in [false, true] {
+        let accessor = &mut root["accessors"][position];
+        accessor["bufferView"] = json!(view);
+        accessor["componentType"] = json!(5122);
+        accessor["normalized"] = json!(true);
+        root["extensionsUsed"].as_array_mut().unwrap().push(json!("KHR_mesh_quantization"));
+        if required {
+            root["extensionsRequired"] = json!(["KHR_mesh_quantization"]);
+        }
+        std::fs::write(&main, root.to_string()).unwrap();
+        let back = load(&main).unwrap();
+        assert_eq!(back.objects[0].shape, plain.objects[0].shape);
+        assert_eq!(back.warnings, [""; 0]);
+    }
+}
+
+#[test]
+fn lights_and_bright_emission_are_read() {
+    use crate::{
+        Surface,
+        scene::{Light, Paint},
+    };
     let folder = tempfile::tempdir().unwrap();
     let path = written(folder.path(), |root| {
-        root["extensionsUsed"].as_array_mut().unwrap().push(json!("KHR_lights_punctual"));
+        let black = json!({ "metallicFactor": 0.0, "baseColorFactor": [0.0, 0.0, 0.0, 1.0] });
+        root["materials"][0] = json!({ "pbrMetallicRoughness": black,
+            "emissiveFactor": [1.0, 0.5, 0.0],
+            "extensions": { "KHR_materials_emissive_strength": { "emissiveStrength": 10.0 } } });
+        let used = root["extensionsUsed"].as_array_mut().unwrap();
+        used.extend([json!("KHR_lights_punctual"), json!("KHR_materials_emissive_strength")]);
+        root["extensions"] = json!({ "KHR_lights_punctual": { "lights": [
+            { "type": "point", "intensity": 7.0, "color": [1.0, 0.5, 0.25] },
+            { "type": "directional" }, { "type": "spot", "spot": {} }] } });
+        let node = |i: u32| {
+            json!({ "translation": [1.0, 2.0, 3.0],
+            "extensions": { "KHR_lights_punctual": { "light": i } } })
+        };
+        let nodes = root["nodes"].as_array_mut().unwrap();
+        let first = nodes.len();
+        nodes.extend((0..3).map(node));
+        let in_scene = root["scenes"][0]["nodes"].as_array_mut().unwrap();
+        in_scene.extend((first..first + 3).map(|i| json!(i)));
     });
     let scene = load(&path).unwrap();
-    assert_eq!(scene.warnings, ["KHR_lights_punctual is not read"]);
+    let radiance = Paint::Constant(DVec3::new(10.0, 5.0, 0.0));
+    assert_eq!(scene.objects[0].surface, Surface::Unlit { radiance });
+    let position_m = DVec3::new(1.0, 2.0, 3.0);
+    let point = Light::Point { position_m, intensity: DVec3::new(7.0, 3.5, 1.75) };
+    let sun = Light::Directional { direction: DVec3::NEG_Z, irradiance: DVec3::ONE };
+    assert_eq!(scene.lights, [point, sun]);
+    assert_eq!(scene.warnings.len(), 1, "{:?}", scene.warnings);
+    assert!(scene.warnings[0].contains("\"spot\" are not read"), "{:?}", scene.warnings);
+}
+
+/// A normal of zero is made from the faces, and told.
+#[test]
+fn zero_normals_are_made_from_the_faces() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = written(folder.path(), |_| ());
+    let whole = load(&path).unwrap();
+    let root: Value = serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
+    let normal = &root["meshes"][0]["primitives"][0]["attributes"]["NORMAL"];
+    let accessor = &root["accessors"][usize::try_from(normal.as_u64().unwrap()).unwrap()];
+    let view =
+        &root["bufferViews"][usize::try_from(accessor["bufferView"].as_u64().unwrap()).unwrap()];
+    let start = usize::try_from(view["byteOffset"].as_u64().unwrap()).unwrap();
+    let bin = path.with_file_name("scene.bin");
+    let mut bytes = std::fs::read(&bin).unwrap();
+    bytes[start..start + 12].fill(0);
+    std::fs::write(&bin, bytes).unwrap();
+    let mended = load(&path).unwrap();
+    assert!(mended.warnings[0].contains("zero or not a number"), "{:?}", mended.warnings);
+    let normals = |scene: &Scene| {
+        let normals = scene.objects[0].shape.mesh().unwrap().normals.clone().unwrap();
+        normals.indices.iter().flatten().map(|i| normals.values[*i as usize]).collect::<Vec<_>>()
+    };
+    let (a, b) = (normals(&whole), normals(&mended));
+    let moved: Vec<f64> = a.iter().zip(&b).map(|(a, b)| a.distance(*b)).collect();
+    let largest = moved.iter().copied().fold(0.0, f64::max);
+    assert!(largest > 0.0 && largest < 0.8, "{largest}");
+    assert!(b.iter().all(|n| (n.length() - 1.0).abs() < 1e-12));
 }
 
 #[test]

@@ -95,7 +95,7 @@ impl Scene {
 mod tests {
     use super::*;
     use crate::generate::{builtin, geodesic};
-    use crate::{normals, topology::inspect};
+    use crate::{normals, topology::solid};
 
     fn wave() -> Wave {
         Wave {
@@ -121,7 +121,7 @@ mod tests {
     #[test]
     fn a_deformed_body_stays_closed() {
         let mesh = wave().deform(&geodesic(8), 0.4);
-        assert_eq!(inspect(&mesh).solid(), Ok(()));
+        assert_eq!(solid(&mesh), Ok(()));
     }
 
     /// The turned normals are those of the deformed surface.

@@ -3,6 +3,7 @@
 pub mod deform;
 pub mod normals;
 pub mod obj;
+pub(crate) mod polygon;
 pub mod topology;
 
 use glam::DVec3;

@@ -30,7 +30,14 @@ pub fn flat(mesh: &Mesh) -> CornerNormals {
 /// facets", Journal of Graphics Tools 3 (1), 1998.
 #[must_use]
 pub fn smooth(mesh: &Mesh) -> CornerNormals {
-    let faces = of_faces(mesh);
+    smooth_over(mesh, &of_faces(mesh))
+}
+
+/// As [`smooth`], with the normals of faces that the triangles are parts of: one
+/// unit vector per triangle, or zero. The angle of a face at a corner is then the
+/// sum of its triangles', and its normal is weighed over its whole area.
+#[must_use]
+pub(crate) fn smooth_over(mesh: &Mesh, faces: &[DVec3]) -> CornerNormals {
     let mut values = vec![DVec3::ZERO; mesh.positions.len()];
     for (index, triangle) in mesh.triangles.iter().enumerate() {
         let angles = corner_angles(mesh.corners(index));
@@ -38,7 +45,7 @@ pub fn smooth(mesh: &Mesh) -> CornerNormals {
             values[*vertex as usize] += faces[index] * angle;
         }
     }
-    let fallback = any_face(mesh, &faces);
+    let fallback = any_face(mesh, faces);
     for (value, fallback) in values.iter_mut().zip(fallback) {
         *value = value.try_normalize().unwrap_or(fallback);
     }

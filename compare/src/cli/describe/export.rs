@@ -5,8 +5,8 @@ use crate::cli::arguments::scene;
 use crate::cli::output::Output;
 use crate::cli::status::Status;
 use clap::ValueEnum;
-use scenes::export;
-use std::collections::BTreeMap;
+use scenes::export::{self, Written};
+use serde::Serialize;
 use std::path::PathBuf;
 
 /// Write a scene for another renderer: anyone's second opinion
@@ -35,17 +35,28 @@ pub(in crate::cli) enum Format {
     Gltf,
 }
 
+/// The answer for programs.
+#[derive(Serialize)]
+struct Answer {
+    /// Main file.
+    file: PathBuf,
+    /// What the form could only say nearly, and how near.
+    notes: Vec<String>,
+}
+
 pub(in crate::cli) fn run(args: &Args, output: Output) -> Result<Status, Error> {
     let format = match args.to {
         Format::Mitsuba => export::Format::Mitsuba,
         Format::Pbrt => export::Format::Pbrt,
         Format::Gltf => export::Format::Gltf,
     };
-    let main = export::write(&scene(&args.scene)?.still(args.frame), format, &args.out)?;
+    let Written { file, notes } =
+        export::write(&scene(&args.scene)?.still(args.frame), format, &args.out)?;
     if output.json {
-        output.object("snell.export/1", &BTreeMap::from([("file", &main)]))?;
+        output.object("snell.export/1", &Answer { file, notes })?;
     } else {
-        output.line(&main.display().to_string())?;
+        notes.iter().for_each(|note| Output::note(note));
+        output.line(&file.display().to_string())?;
     }
     Ok(Status::Done)
 }

@@ -2,6 +2,7 @@
 
 pub(super) mod adapters;
 pub(super) mod export;
+pub(super) mod mesh;
 pub(super) mod methods;
 pub(super) mod plan;
 pub(super) mod scenes;

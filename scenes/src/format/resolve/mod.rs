@@ -30,6 +30,7 @@ pub(super) fn resolve(document: &Document, text: &str, base: &Path) -> Result<Sc
     let mut media = Media::new(document)?;
     let mut shapes = Shapes::new(document, base);
     let objects = object::resolve(document, &mut media, &mut shapes)?;
+    warnings.append(&mut shapes.warnings);
     let media = media.finish(&mut warnings);
     object::warn_of_ties(&objects, &media, &mut warnings);
     let lights = document.light.iter().map(|light| resolve_light(light, sky.as_ref()));

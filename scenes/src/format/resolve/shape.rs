@@ -25,12 +25,14 @@ pub(super) struct Shapes<'a> {
     base: &'a Path,
     made: BTreeMap<(&'static str, String), Arc<Shape>>,
     instances: BTreeMap<String, Found>,
+    /// What the readers of files want the user to know.
+    pub(super) warnings: Vec<String>,
 }
 
 impl<'a> Shapes<'a> {
     pub(super) fn new(document: &'a Document, base: &'a Path) -> Self {
         let (made, instances) = (BTreeMap::new(), BTreeMap::new());
-        Self { named: &document.shape, base, made, instances }
+        Self { named: &document.shape, base, made, instances, warnings: Vec::new() }
     }
 
     /// Files that were read.
@@ -104,9 +106,11 @@ impl<'a> Shapes<'a> {
         if let Some(shape) = self.made.get(&key) {
             return Ok(Arc::clone(shape));
         }
-        let mesh = crate::obj::read(&self.base.join(path.get_ref()))
+        let model = crate::obj::read(&self.base.join(path.get_ref()))
             .map_err(|error| At { span: path.span(), problem: Problem::Mesh(error) })?;
-        let shape = Arc::new(Shape::Mesh(mesh));
+        let of_file = |warning: &String| format!("{}: {warning}", path.get_ref());
+        self.warnings.extend(model.warnings.iter().map(of_file));
+        let shape = Arc::new(Shape::Mesh(model.mesh));
         self.made.insert(key, Arc::clone(&shape));
         Ok(shape)
     }

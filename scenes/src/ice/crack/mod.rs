@@ -86,7 +86,7 @@ fn sheet(x: f64, y: f64, seed: u64) -> DVec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::topology::{boundary_loops, inspect};
+    use crate::topology::{inspect, rims};
 
     const BOUNDS: [DVec3; 2] = [DVec3::NEG_ONE, DVec3::ONE];
     const CRACK: Crack = Crack { count: 40, grid: 24, seed: 9 };
@@ -98,7 +98,7 @@ mod tests {
             let report = inspect(&mesh);
             assert_eq!((report.components, report.euler_characteristic), (1, 1));
             assert_eq!((report.triangles, report.boundary_edges), (2 * 23 * 23, 4 * 23));
-            assert_eq!((report.inconsistent_edges, boundary_loops(&mesh).len()), (0, 1));
+            assert_eq!((report.inconsistent_edges, rims(&mesh).len()), (0, 1));
             let radius = mesh.positions.iter().map(|p| p.truncate().length()).fold(0.0, f64::max);
             assert!((1.0..=1.25).contains(&radius), "{radius}");
         }

@@ -48,7 +48,7 @@ fn turn(mesh: &mut Mesh, index: usize) {
 }
 
 /// Which triangles must turn so that neighbours agree.
-fn consistent(mesh: &Mesh) -> Result<Vec<bool>, NotOrientable> {
+pub(super) fn consistent(mesh: &Mesh) -> Result<Vec<bool>, NotOrientable> {
     let neighbours = neighbours(mesh);
     let mut is_turned = vec![None; mesh.triangles.len()];
     for start in 0..mesh.triangles.len() {

@@ -3,7 +3,7 @@
 use super::edges::{Sets, Side, edges, sides};
 use super::weld::{cyclic, is_degenerate};
 use crate::Mesh;
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
 
 /// What [`inspect`] found.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -36,40 +36,6 @@ pub struct Report {
     pub signed_volume_m3: f64,
 }
 
-/// Why a mesh does not bound a solid.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum NotSolid {
-    /// There is nothing.
-    #[error("the mesh has no triangles")]
-    Empty,
-    /// The surface has holes.
-    #[error(
-        "the mesh is open: {boundary_edges} boundary edges, so inside and outside are not \
-         defined; close its holes, or make it opaque (surface = \"unlit\" or \"lambert\")"
-    )]
-    Open {
-        /// Edges of one triangle only.
-        boundary_edges: usize,
-    },
-    /// Triangles disagree about which side is out.
-    #[error(
-        "{unbalanced_edges} edges are not used equally often in both senses, so inside and \
-         outside are not defined; orient all triangles counter-clockwise seen from outside"
-    )]
-    Inconsistent {
-        /// Edges with unequal use.
-        unbalanced_edges: usize,
-    },
-    /// The surface faces inwards.
-    #[error(
-        "the mesh faces inwards (signed volume {signed_volume_m3:e} m³); reverse its triangles"
-    )]
-    Inverted {
-        /// Not positive.
-        signed_volume_m3: f64,
-    },
-}
-
 impl Report {
     /// True when a winding number is defined everywhere off the surface.
     #[must_use]
@@ -83,32 +49,6 @@ impl Report {
         self.is_closed()
             && self.boundary_edges + self.non_manifold_edges + self.pinched_vertices == 0
     }
-
-    /// Closed and facing outwards.
-    ///
-    /// # Errors
-    /// The first reason why not.
-    pub fn solid(&self) -> Result<(), NotSolid> {
-        if self.triangles == 0 {
-            Err(NotSolid::Empty)
-        } else if self.boundary_edges > 0 {
-            Err(NotSolid::Open { boundary_edges: self.boundary_edges })
-        } else if self.unbalanced_edges > 0 {
-            Err(NotSolid::Inconsistent { unbalanced_edges: self.unbalanced_edges })
-        } else if self.signed_volume_m3 <= 0.0 || self.signed_volume_m3.is_nan() {
-            Err(NotSolid::Inverted { signed_volume_m3: self.signed_volume_m3 })
-        } else {
-            Ok(())
-        }
-    }
-}
-
-/// Edges that are not used equally often in both senses. Without any the mesh is a
-/// cycle: every line enters it as often as it leaves.
-#[must_use]
-pub fn unbalanced_edges(mesh: &Mesh) -> usize {
-    let sides = sides(mesh);
-    edges(&sides).filter(|edge| is_unbalanced(mesh, edge)).count()
 }
 
 fn is_unbalanced(mesh: &Mesh, edge: &[Side]) -> bool {
@@ -165,34 +105,6 @@ pub fn signed_volume(mesh: &Mesh) -> f64 {
             a.dot(b.cross(c)) / 6.0
         })
         .sum()
-}
-
-/// Closed chains of vertices along edges of one triangle only, each in the
-/// sense of the triangles beside it.
-#[must_use]
-pub fn boundary_loops(mesh: &Mesh) -> Vec<Vec<u32>> {
-    let sides = sides(mesh);
-    let mut next: HashMap<u32, u32> = HashMap::new();
-    let mut starts = Vec::new();
-    for edge in edges(&sides).filter(|edge| edge.len() == 1) {
-        let (low, high) = (edge[0].low, edge[0].high);
-        let (from, to) = if edge[0].is_forward(mesh) { (low, high) } else { (high, low) };
-        next.insert(from, to);
-        starts.push(from);
-    }
-    let mut loops = Vec::new();
-    for start in starts {
-        let mut chain = vec![];
-        let mut at = start;
-        while let Some(to) = next.remove(&at) {
-            chain.push(at);
-            at = to;
-        }
-        if !chain.is_empty() {
-            loops.push(chain);
-        }
-    }
-    loops
 }
 
 fn as_u32(index: usize) -> u32 {

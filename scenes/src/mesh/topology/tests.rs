@@ -10,8 +10,8 @@ fn a_missing_triangle_is_found() {
     let removed = mesh.triangles.swap_remove(17);
     let report = inspect(&mesh);
     assert_eq!(report.boundary_edges, 3);
-    assert_eq!(report.solid(), Err(NotSolid::Open { boundary_edges: 3 }));
-    let [ring] = boundary_loops(&mesh).try_into().unwrap();
+    assert_eq!(solid(&mesh), Err(NotSolid::Open { boundary_edges: 3, wrong_way: 0 }));
+    let [Rim { vertices: ring, is_ring: true }] = &rims(&mesh)[..] else { panic!() };
     assert_eq!(ring.len(), 3);
     // The hole runs against the triangle that filled it.
     let at = ring.iter().position(|v| *v == removed[0]).unwrap();
@@ -34,12 +34,13 @@ fn a_turned_triangle_is_found_and_turned_back() {
 fn an_inverted_ball_is_turned_and_half_flipped_ones_too() {
     let mut inverted = geodesic(4).reversed();
     let volume = inspect(&inverted).signed_volume_m3;
-    assert_eq!(inspect(&inverted).solid(), Err(NotSolid::Inverted { signed_volume_m3: volume }));
+    assert_eq!(solid(&inverted), Err(NotSolid::Inverted { signed_volume_m3: volume }));
     assert_eq!(orient_outward(&mut inverted), Ok(320));
-    assert_eq!(inspect(&inverted).solid(), Ok(()));
+    assert_eq!(solid(&inverted), Ok(()));
     let mut half = half_flipped(4);
+    assert_eq!(solid(&half), Err(NotSolid::WrongWay { faces: 160, triangles: 320 }));
     assert_eq!(orient_outward(&mut half), Ok(160));
-    assert_eq!(inspect(&half).solid(), Ok(()));
+    assert_eq!(solid(&half), Ok(()));
 }
 
 #[test]
@@ -88,7 +89,7 @@ fn odd_surfaces_are_named() {
     touching.append(&cube(1).with_positions(|p| p + 2.0));
     let report = inspect(&weld(&touching));
     assert_eq!((report.pinched_vertices, report.components), (1, 2));
-    assert_eq!(inspect(&Mesh::default()).solid(), Err(NotSolid::Empty));
+    assert_eq!(solid(&Mesh::default()), Err(NotSolid::Empty));
 }
 
 #[test]
@@ -154,4 +155,42 @@ fn a_dent_is_not_convex() {
     assert!(!is_convex(&mesh));
     assert!(!is_convex(&shell(4, 0.5)));
     assert!(!is_convex(&geodesic(4).reversed()));
+}
+
+/// Each of these has its own name, and the good twin of each passes.
+#[test]
+fn what_is_no_solid_is_told_apart() {
+    let ball = geodesic(4);
+    assert_eq!(solid(&ball), Ok(()));
+    let mut flipped = ball.clone();
+    flipped.triangles[3..8].iter_mut().for_each(|t| t.swap(1, 2));
+    assert_eq!(solid(&flipped), Err(NotSolid::WrongWay { faces: 5, triangles: 320 }));
+    let message = solid(&flipped).unwrap_err().to_string();
+    assert!(message.contains("5 of 320 triangles run the wrong way"), "{message}");
+    assert!(!message.contains("is open"), "{message}");
+    flipped.triangles.pop();
+    assert_eq!(solid(&flipped), Err(NotSolid::Open { boundary_edges: 3, wrong_way: 5 }));
+    let mut both = ball.clone();
+    both.append(&ball.clone().reversed());
+    assert_eq!(solid(&weld(&both)), Err(NotSolid::TwoSided));
+    // Two sheets over one square, cut along different diagonals.
+    let mut sheets = Mesh { positions: cube(1).positions, ..Mesh::default() };
+    let square: Vec<u32> = (0..8u32).filter(|i| sheets.positions[*i as usize].z > 0.0).collect();
+    let at = |x: f64, y: f64| {
+        *square
+            .iter()
+            .find(|i| sheets.positions[**i as usize] == glam::DVec3::new(x, y, 1.0))
+            .unwrap()
+    };
+    let [a, b, c, d] = [at(-1.0, -1.0), at(1.0, -1.0), at(1.0, 1.0), at(-1.0, 1.0)];
+    sheets.triangles = vec![[a, b, c], [a, c, d], [b, a, d], [b, d, c]];
+    assert_eq!(solid(&sheets), Err(NotSolid::Flat { signed_volume_m3: 0.0 }));
+    assert!(matches!(solid(&fan()), Err(NotSolid::Open { .. })));
+    let mut apart = ball.clone();
+    apart.append(&cube(1).with_positions(|p| p * 0.1 + 3.0).reversed());
+    assert!(matches!(solid(&apart), Err(NotSolid::PartInverted { triangles: 12, .. })));
+    let body = must_be_body("glass", &crate::Shape::Mesh(flipped)).unwrap_err().to_string();
+    assert!(body.starts_with("object \"glass\": the mesh is open"), "{body}");
+    assert!(body.contains("snell mesh FILE") && body.contains("--repair"), "{body}");
+    assert_eq!(must_be_body("nothing", &crate::Shape::Mesh(Mesh::default())), Ok(()));
 }

@@ -61,9 +61,20 @@ pub(super) fn cyclic([a, b, c]: [u32; 3]) -> [u32; 3] {
 /// area: without it its neighbours' edges would be open.
 #[must_use]
 pub fn clean(mesh: &Mesh) -> (Mesh, Removed) {
+    let (kept, removed) = kept(mesh);
+    let normals = mesh.normals.as_ref().map(|normals| CornerNormals {
+        values: normals.values.clone(),
+        indices: kept.iter().map(|index| normals.indices[*index]).collect(),
+    });
+    let triangles = kept.iter().map(|index| mesh.triangles[*index]).collect();
+    (Mesh { positions: mesh.positions.clone(), triangles, normals }, removed)
+}
+
+/// Which triangles [`clean`] keeps.
+pub(crate) fn kept(mesh: &Mesh) -> (Vec<usize>, Removed) {
     let mut removed = Removed::default();
     let mut seen = HashSet::with_capacity(mesh.triangles.len());
-    let kept: Vec<usize> = (0..mesh.triangles.len())
+    let kept = (0..mesh.triangles.len())
         .filter(|index| {
             let [a, b, c] = mesh.triangles[*index];
             let degenerate = a == b || b == c || c == a;
@@ -73,10 +84,5 @@ pub fn clean(mesh: &Mesh) -> (Mesh, Removed) {
             !degenerate && !duplicate
         })
         .collect();
-    let normals = mesh.normals.as_ref().map(|normals| CornerNormals {
-        values: normals.values.clone(),
-        indices: kept.iter().map(|index| normals.indices[*index]).collect(),
-    });
-    let triangles = kept.iter().map(|index| mesh.triangles[*index]).collect();
-    (Mesh { positions: mesh.positions.clone(), triangles, normals }, removed)
+    (kept, removed)
 }
