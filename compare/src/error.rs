@@ -5,21 +5,15 @@ use crate::image_pair::ImagePairError;
 use crate::metric::JudgementError;
 use crate::report::ReportError;
 use crate::results::{NotDone, ResultsError};
-use std::path::{Path, PathBuf};
+use crate::support::files::FileError;
+use std::path::PathBuf;
 
 /// Why a command could not do what it was asked. Exit status 2.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// A file or folder that cannot be read or written.
-    #[error("{}: {what}: {source}", path.display())]
-    File {
-        /// Which one.
-        path: PathBuf,
-        /// What was to be done with it.
-        what: &'static str,
-        /// The system's answer.
-        source: std::io::Error,
-    },
+    #[error(transparent)]
+    File(#[from] FileError),
     /// A scene that cannot be read.
     #[error(transparent)]
     Scene(#[from] scenes::Error),
@@ -72,12 +66,4 @@ pub enum Error {
 fn reasons(left_out: &[NotDone]) -> String {
     let lines = left_out.iter().map(|NotDone { what, reason }| format!("{what}: {reason}"));
     lines.collect::<Vec<_>>().join("\n")
-}
-
-impl Error {
-    /// Turns the system's answer into an error about a path, for `map_err`.
-    pub(crate) fn file(path: &Path, what: &'static str) -> impl Fn(std::io::Error) -> Self {
-        let path = path.to_owned();
-        move |source| Self::File { path: path.clone(), what, source }
-    }
 }

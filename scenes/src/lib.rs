@@ -21,6 +21,7 @@ mod proxy;
 pub mod rendering;
 pub mod scene;
 pub mod shape;
+pub mod whole;
 
 pub use builtin::{Builtin, builtin, builtins, find};
 pub use camera::{Camera, Projection, Ray};

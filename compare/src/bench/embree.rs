@@ -3,9 +3,10 @@
 
 use super::{BenchError, Input};
 use crate::support::clock::Taken;
+use crate::support::files::FileError;
 use std::ffi::{OsStr, OsString};
 use std::io::{BufRead, BufReader, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 use tempfile::TempDir;
 
@@ -51,9 +52,9 @@ impl Program {
     /// # Errors
     /// There is no compiler, or it does not find Embree.
     pub fn compile(compiler: &OsStr) -> Result<Self, BenchError> {
-        let folder = tempfile::tempdir().map_err(file_error(&std::env::temp_dir()))?;
+        let folder = tempfile::tempdir().map_err(FileError::unwritten(&std::env::temp_dir()))?;
         let source = folder.path().join("embree.cpp");
-        std::fs::write(&source, SOURCE).map_err(file_error(&source))?;
+        std::fs::write(&source, SOURCE).map_err(FileError::unwritten(&source))?;
         let mut command = Command::new(compiler);
         command.args(FLAGS).arg(folder.path().join("embree")).arg(&source).arg("-lembree3");
         let compiler = compiler.to_string_lossy().into_owned();
@@ -81,7 +82,7 @@ impl Program {
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .spawn()
-            .map_err(file_error(&self.folder.path().join("embree")))?;
+            .map_err(FileError::of(&self.folder.path().join("embree"), "cannot be started"))?;
         let (Some(to), Some(from)) = (child.stdin.take(), child.stdout.take()) else {
             return Err(broke_off("has no pipes"));
         };
@@ -93,7 +94,7 @@ impl Program {
     /// The triangle that each ray meets first.
     pub(super) fn hits(&self, robust: Robust) -> Result<Vec<u32>, BenchError> {
         let path = self.folder.path().join("hits").with_extension(robust.word());
-        let bytes = std::fs::read(&path).map_err(file_error(&path))?;
+        let bytes = std::fs::read(&path).map_err(FileError::of(&path, "cannot be read"))?;
         Ok(bytes.as_chunks().0.iter().map(|four| u32::from_le_bytes(*four)).collect())
     }
 }
@@ -145,12 +146,7 @@ impl Drop for Running {
 
 fn write_floats(path: &Path, numbers: impl Iterator<Item = f64>) -> Result<(), BenchError> {
     let bytes: Vec<u8> = numbers.flat_map(|x| (x as f32).to_le_bytes()).collect();
-    std::fs::write(path, bytes).map_err(file_error(path))
-}
-
-fn file_error(path: &Path) -> impl Fn(std::io::Error) -> BenchError {
-    let path: PathBuf = path.to_owned();
-    move |source| BenchError::File { path: path.clone(), source }
+    Ok(std::fs::write(path, bytes).map_err(FileError::unwritten(path))?)
 }
 
 fn broke_off(why: &str) -> BenchError {

@@ -1,6 +1,6 @@
 //! Why a speed cannot be measured.
 
-use std::path::PathBuf;
+use crate::support::files::FileError;
 
 const ADVICE: &str = "on Debian or Ubuntu: apt-get install libembree-dev g++";
 
@@ -54,13 +54,8 @@ pub enum BenchError {
         why: String,
     },
     /// A file between the two programs.
-    #[error("{}: {source}", path.display())]
-    File {
-        /// Which one.
-        path: PathBuf,
-        /// The system's answer.
-        source: std::io::Error,
-    },
+    #[error(transparent)]
+    File(#[from] FileError),
     /// No threads.
     #[error("threads cannot be started: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),

@@ -3,6 +3,7 @@
 //! Mitsuba.
 
 use super::BenchError;
+use crate::support::files::FileError;
 use serde::{Deserialize, Serialize};
 use std::ffi::{OsStr, OsString};
 use std::path::Path;
@@ -69,11 +70,9 @@ pub fn python() -> OsString {
 /// # Errors
 /// Python or Mitsuba is not there, or something breaks off.
 pub fn beside_mitsuba(python: &OsStr, snell: &Path) -> Result<Vec<BesideMitsuba>, BenchError> {
-    let folder = tempfile::tempdir()
-        .map_err(|source| BenchError::File { path: std::env::temp_dir(), source })?;
+    let folder = tempfile::tempdir().map_err(FileError::unwritten(&std::env::temp_dir()))?;
     let script = folder.path().join("beside_mitsuba.py");
-    std::fs::write(&script, SCRIPT)
-        .map_err(|source| BenchError::File { path: script.clone(), source })?;
+    std::fs::write(&script, SCRIPT).map_err(FileError::unwritten(&script))?;
     let mut command = Command::new(python);
     command.arg(&script).arg(snell).arg(folder.path());
     command.args([MITSUBA_PX, MITSUBA_REPETITIONS].map(|n| n.to_string()));

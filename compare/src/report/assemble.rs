@@ -5,7 +5,7 @@ use super::numbers::{Numbers, is_better, usable};
 use super::page::{Cell, MethodView, Page, SceneView};
 use super::pictures::SceneImages;
 use super::runs::{COLUMNS, display_name, find, methods_of, styles};
-use super::{ReportError, files, scene_plots, verdict, viewer};
+use super::{ReportError, beside, scene_plots, verdict, viewer};
 use crate::metric::{Better, Mask, Metric};
 use crate::results::{REFERENCE, ResultRow, RowKind, Run, SceneEntry, Status, Study, saved_ms};
 use rayon::prelude::*;
@@ -28,7 +28,7 @@ pub(super) fn assemble(
         let mut view = scene_view(index, entry, &study, &numbers, &styles);
         view.ev = images.ev;
         view.data = viewer::data(&view, &images, factor);
-        files::place(directory, &mut view, images.pictures())?;
+        beside::place(directory, &mut view, images.pictures())?;
         Ok(view)
     };
     let scenes: Result<Vec<SceneView>, ReportError> =

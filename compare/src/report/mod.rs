@@ -2,7 +2,7 @@
 //! spreadsheet, pictures.
 
 mod assemble;
-mod files;
+mod beside;
 pub mod number;
 mod numbers;
 mod page;
@@ -15,8 +15,8 @@ mod verdict;
 pub mod viewer;
 
 use crate::results::{ResultsError, read_rows, read_study};
+use crate::support::files::{self, FileError};
 use askama::Template;
-use files::write_file;
 use std::path::{Path, PathBuf};
 
 /// Why a report could not be made.
@@ -29,13 +29,8 @@ pub enum ReportError {
     #[error(transparent)]
     Image(#[from] scenes::image::Error),
     /// A file cannot be written.
-    #[error("{}: {source}", path.display())]
-    Write {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        source: std::io::Error,
-    },
+    #[error(transparent)]
+    File(#[from] FileError),
     /// A template failed: our mistake.
     #[error("the page cannot be made: {0}")]
     Template(#[from] askama::Error),
@@ -70,8 +65,8 @@ pub fn write(directory: &Path) -> Result<Report, ReportError> {
         csv: directory.join("results.csv"),
         pictures: page.scenes.iter().flat_map(|scene| scene.files.clone()).collect(),
     };
-    write_file(&report.csv, &spreadsheet::csv(&rows))?;
-    write_file(&report.markdown, page::Markdown { page: &page }.render()?.as_bytes())?;
-    write_file(&report.html, page.render()?.as_bytes())?;
+    files::write(&report.csv, &spreadsheet::csv(&rows))?;
+    files::write(&report.markdown, page::Markdown { page: &page }.render()?.as_bytes())?;
+    files::write(&report.html, page.render()?.as_bytes())?;
     Ok(report)
 }

@@ -1,6 +1,7 @@
 //! Reading and writing the files of a results directory.
 
 use super::{RESULT_SCHEMA, RESULTS_FILE, ResultRow, STUDY_FILE, STUDY_SCHEMA, Study};
+use crate::support::files::{self, FileError};
 use std::io::BufRead;
 use std::path::{Path, PathBuf};
 
@@ -8,13 +9,8 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, thiserror::Error)]
 pub enum ResultsError {
     /// A file cannot be read or written.
-    #[error("{path}: {source}")]
-    Io {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        source: std::io::Error,
-    },
+    #[error(transparent)]
+    File(#[from] FileError),
     /// A line is not a row, or the file is not a study.
     #[error("{path}:{line}: {source}; `snell study -o DIR` writes this file")]
     Json {
@@ -45,11 +41,11 @@ pub enum ResultsError {
 /// When the file is missing, a line is no row, or the schema is another one.
 pub fn read_rows(directory: &Path) -> Result<Vec<ResultRow>, ResultsError> {
     let path = directory.join(RESULTS_FILE);
-    let io = |source| ResultsError::Io { path: path.clone(), source };
-    let file = std::fs::File::open(&path).map_err(io)?;
+    let failed = FileError::of(&path, "cannot be read");
+    let file = std::fs::File::open(&path).map_err(&failed)?;
     let mut rows = Vec::new();
     for (index, line) in std::io::BufReader::new(file).lines().enumerate() {
-        let line = line.map_err(io)?;
+        let line = line.map_err(&failed)?;
         if line.trim().is_empty() {
             continue;
         }
@@ -74,7 +70,7 @@ pub fn write_rows(directory: &Path, rows: &[ResultRow]) -> Result<(), ResultsErr
         text.extend(serde_json::to_vec(row).unwrap_or_default());
         text.push(b'\n');
     }
-    write(&directory.join(RESULTS_FILE), &text)
+    Ok(files::write(&directory.join(RESULTS_FILE), &text)?)
 }
 
 /// Reads `study.json` of a results directory.
@@ -83,8 +79,7 @@ pub fn write_rows(directory: &Path, rows: &[ResultRow]) -> Result<(), ResultsErr
 /// When the file is missing, is no study, or the schema is another one.
 pub fn read_study(directory: &Path) -> Result<Study, ResultsError> {
     let path = directory.join(STUDY_FILE);
-    let text = std::fs::read_to_string(&path)
-        .map_err(|source| ResultsError::Io { path: path.clone(), source })?;
+    let text = std::fs::read_to_string(&path).map_err(FileError::of(&path, "cannot be read"))?;
     let study: Study = serde_json::from_str(&text).map_err(|source| ResultsError::Json {
         path: path.clone(),
         line: source.line(),
@@ -100,7 +95,7 @@ pub fn read_study(directory: &Path) -> Result<Study, ResultsError> {
 /// When the file cannot be written.
 pub fn write_study(directory: &Path, study: &Study) -> Result<(), ResultsError> {
     let text = serde_json::to_vec_pretty(study).unwrap_or_default();
-    write(&directory.join(STUDY_FILE), &text)
+    Ok(files::write(&directory.join(STUDY_FILE), &text)?)
 }
 
 fn check_schema(
@@ -113,14 +108,6 @@ fn check_schema(
         return Ok(());
     }
     Err(ResultsError::Schema { path: path.to_owned(), line, found: found.to_owned(), expected })
-}
-
-/// Writes a file whole or not at all: a neighbour first, then a rename.
-fn write(path: &Path, bytes: &[u8]) -> Result<(), ResultsError> {
-    let io = |source| ResultsError::Io { path: path.to_owned(), source };
-    let neighbour = path.with_extension(format!("{}.tmp", std::process::id()));
-    std::fs::write(&neighbour, bytes).map_err(io)?;
-    std::fs::rename(&neighbour, path).map_err(io)
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use crate::results::{self, ResultRow, Study};
 use crate::study::jobs::Made;
-use crate::support::files;
+use crate::support::files::{self, FileError};
 use crate::{Error, report};
 use scenes::{LayerName, Layers};
 use std::fs;
@@ -14,10 +14,9 @@ pub(super) fn image_place(scene: &str, method: &str) -> PathBuf {
 }
 
 /// Copies a stored image to its place.
-pub(super) fn copy_image(made: &Made, to: &Path) -> Result<(), Error> {
-    files::replace(to, |partial| {
-        fs::copy(&made.image, partial).map(|_| ()).map_err(Error::file(to, "cannot be written"))
-    })
+pub(super) fn copy_image(made: &Made, to: &Path) -> Result<(), FileError> {
+    let copy = |partial: &Path| fs::copy(&made.image, partial).map(|_| ());
+    files::replace(to, |partial| copy(partial).map_err(FileError::unwritten(to)))
 }
 
 /// Writes the FLIP map of an image, for the report.

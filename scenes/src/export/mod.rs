@@ -84,26 +84,22 @@ pub fn write(scene: &Scene, format: Format, folder: &Path) -> Result<Written, Ex
     refuse_details(scene, format)?;
     refuse_surroundings(scene, format)?;
     let scene = &scene.still(0);
-    let partial = folder.with_extension(format!("partial-{}", std::process::id()));
-    let written = (|| {
-        std::fs::create_dir_all(&partial).map_err(|source| write_error(&partial, source))?;
-        let mut notes: Vec<String> = Vec::new();
-        let main = match format {
-            Format::Mitsuba => mitsuba::write(scene, &partial, &mut notes)?,
-            Format::Pbrt => pbrt::write(scene, &partial, &mut notes)?,
-            Format::Gltf => gltf::write(scene, &partial, &mut notes)?,
+    let mut main = "";
+    let mut notes: Vec<String> = Vec::new();
+    let renaming = |source| write_error(folder, source);
+    crate::whole::replace(folder, renaming, |partial| {
+        std::fs::create_dir_all(partial).map_err(|source| write_error(partial, source))?;
+        main = match format {
+            Format::Mitsuba => mitsuba::write(scene, partial, &mut notes)?,
+            Format::Pbrt => pbrt::write(scene, partial, &mut notes)?,
+            Format::Gltf => gltf::write(scene, partial, &mut notes)?,
         };
         if format == Format::Gltf {
             notes.extend(round_trip::told(scene, &partial.join(main)));
         }
-        std::fs::rename(&partial, folder).map_err(|source| write_error(folder, source))?;
-        Ok(Written { file: folder.join(main), notes })
-    })();
-    if written.is_err() {
-        // The partial folder is ours alone; that it may linger is no second error.
-        let _ = std::fs::remove_dir_all(&partial);
-    }
-    written
+        Ok(())
+    })?;
+    Ok(Written { file: folder.join(main), notes })
 }
 
 fn write_error(path: &Path, source: std::io::Error) -> ExportError {

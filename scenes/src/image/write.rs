@@ -9,10 +9,7 @@ use ::exr::prelude::{
     WritableImage,
 };
 use std::collections::BTreeMap;
-use std::fs::File;
-use std::io::{BufWriter, Write};
-use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::path::Path;
 
 /// How linear radiance becomes a picture for a screen.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -104,7 +101,7 @@ pub fn write_exr_with(
     let mut encoded = std::io::Cursor::new(Vec::new());
     let image = Image::from_layer(part);
     image.write().to_buffered(&mut encoded).map_err(|error| write_error(path, error))?;
-    write_whole(path, encoded.get_ref())
+    crate::whole::write(path, encoded.get_ref()).map_err(|error| write_error(path, error))
 }
 
 fn channels_of(layer: &Layer) -> impl Iterator<Item = AnyChannel<FlatSamples>> + '_ {
@@ -162,30 +159,7 @@ pub fn write_png(path: &Path, layers: &Layers, preview: &Preview) -> Result<(), 
         image::ImageFormat::Png,
     )
     .map_err(|error| write_error(path, error))?;
-    write_whole(path, encoded.get_ref())
-}
-
-/// Writes beside the name and renames; what is left of a failure is removed.
-fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Error> {
-    let part = part_name(path);
-    let written = (|| {
-        let mut file = BufWriter::new(File::create(&part)?);
-        file.write_all(bytes)?;
-        file.into_inner().map_err(std::io::IntoInnerError::into_error)?.sync_all()?;
-        std::fs::rename(&part, path)
-    })();
-    written.map_err(|error| {
-        let _ = std::fs::remove_file(&part);
-        write_error(path, error)
-    })
-}
-
-/// A name in the same folder that no other writer uses.
-fn part_name(path: &Path) -> PathBuf {
-    static COUNT: AtomicU64 = AtomicU64::new(0);
-    let number = COUNT.fetch_add(1, Ordering::Relaxed);
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    path.with_file_name(format!(".{name}.{}-{number}.part", std::process::id()))
+    crate::whole::write(path, encoded.get_ref()).map_err(|error| write_error(path, error))
 }
 
 fn write_error(path: &Path, reason: impl ToString) -> Error {

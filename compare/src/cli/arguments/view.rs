@@ -129,9 +129,7 @@ impl ImageArgs {
         let ev = self.exposure.unwrap_or_else(|| colour_map::exposure(radiance));
         let size_px = layers.resolution_px.map(|side| side as usize);
         let png = Picture::of_radiance(radiance, size_px, ev).png();
-        files::replace(&self.out, |partial| {
-            std::fs::write(partial, png).map_err(Error::file(&self.out, "cannot be written"))
-        })
+        Ok(files::write(&self.out, &png)?)
     }
 }
 

@@ -4,6 +4,7 @@ use crate::Error;
 use crate::bench::{self, BesideMitsuba, Measured, Program};
 use crate::cli::output::{Output, table};
 use crate::cli::status::Status;
+use crate::support::files::FileError;
 use crate::support::progress::Progress;
 use crate::support::statistics::{FEWEST, Interval};
 use clap::ValueEnum;
@@ -118,7 +119,7 @@ fn footprint(triangles: u32, output: Output) -> Result<Status, Error> {
 
 fn mitsuba(output: Output) -> Result<Status, Error> {
     let snell = std::env::current_exe()
-        .map_err(Error::file(std::path::Path::new("snell"), "cannot be found"))?;
+        .map_err(FileError::of(std::path::Path::new("snell"), "cannot be found"))?;
     let progress = Progress::new("beside Mitsuba");
     let found = bench::beside_mitsuba(&bench::python(), &snell)?;
     drop(progress);

@@ -6,13 +6,14 @@
 
 use super::id::{Id, hex};
 use crate::Error;
+use crate::support::files::FileError;
+use scenes::whole;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 const CHECKSUMS: &str = "checksums.json";
-const PARTIAL: &str = ".partial-";
 
 /// A folder of results by content id.
 #[derive(Clone, Debug)]
@@ -77,24 +78,21 @@ impl Store {
         id: &Id,
         fill: impl FnOnce(&Path) -> Result<(), Error>,
     ) -> Result<PathBuf, Error> {
-        let failed = |error| Error::file(&self.root, "the cache cannot be written")(error);
-        fs::create_dir_all(&self.root).map_err(failed)?;
-        let partial =
-            tempfile::Builder::new().prefix(PARTIAL).tempdir_in(&self.root).map_err(failed)?;
-        fill(partial.path())?;
-        let sums = checksums(partial.path()).map_err(failed)?;
-        let text = serde_json::to_vec(&sums).map_err(|error| failed(error.into()))?;
-        fs::write(partial.path().join(CHECKSUMS), text).map_err(failed)?;
+        let unwritten = FileError::of(&self.root, "the cache cannot be written");
+        let failed = |error| Error::from(unwritten(error));
         let folder = self.root.join(id.as_str());
-        match fs::rename(partial.path(), &folder) {
-            Ok(()) => {
-                let _ = partial.keep(); // It lives on under its new name.
-            }
+        let stored = whole::replace(&folder, failed, |partial| {
+            fs::create_dir_all(partial).map_err(failed)?;
+            fill(partial)?;
+            let sums = checksums(partial).map_err(failed)?;
+            let text = serde_json::to_vec(&sums).map_err(|error| failed(error.into()))?;
+            fs::write(partial.join(CHECKSUMS), text).map_err(failed)
+        });
+        match stored {
             // Someone else stored the same result first: theirs is as good.
-            Err(_) if verify(&folder).is_ok() => {}
-            Err(error) => return Err(failed(error)),
+            Err(_) if verify(&folder).is_ok() => Ok(folder),
+            stored => stored.map(|()| folder),
         }
-        Ok(folder)
     }
 }
 

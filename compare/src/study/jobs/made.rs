@@ -2,6 +2,7 @@
 
 use crate::Error;
 use crate::study::cache::{Found, Id, Store};
+use crate::support::files::FileError;
 use scenes::rendering::{Pass, Provenance};
 use scenes::{Layers, Plan, Rendering};
 use serde::{Deserialize, Serialize};
@@ -59,7 +60,8 @@ impl Made {
             scenes::image::write_exr(&folder.join(IMAGE), &layers)?;
             let text = serde_json::to_vec(&facts).map_err(std::io::Error::from);
             text.and_then(|text| fs::write(folder.join(FACTS), text))
-                .map_err(Error::file(folder, "the cache cannot be written"))
+                .map_err(FileError::of(folder, "the cache cannot be written"))?;
+            Ok(())
         })?;
         Self::read(id, &folder)
     }
@@ -76,7 +78,7 @@ impl Made {
 
     fn read(id: &Id, folder: &Path) -> Result<Self, Error> {
         let image = folder.join(IMAGE);
-        let failed = Error::file(folder, "the cache cannot be read");
+        let failed = FileError::of(folder, "the cache cannot be read");
         let text = fs::read(folder.join(FACTS)).map_err(&failed)?;
         let facts = serde_json::from_slice(&text).map_err(|error| failed(error.into()))?;
         let layers = scenes::image::read(&image)?;

@@ -3,7 +3,8 @@
 use super::ReportError;
 use super::page::{SceneView, Shown};
 use super::pictures::{MethodPictures, Picture, ScenePictures, contact_sheet};
-use std::path::{Path, PathBuf};
+use crate::support::files;
+use std::path::Path;
 
 /// Widest picture in the page, pixels: larger ones are shrunk there.
 const SHOWN_WIDTH_PX: usize = 320;
@@ -18,18 +19,18 @@ pub(super) fn place(
     let name = file_name(&scene.entry.name);
     for plot in &scene.plots {
         let path = directory.join("plots").join(format!("{name}-{}.svg", plot.kind));
-        write_file(&path, plot.svg.as_bytes())?;
+        files::write(&path, plot.svg.as_bytes())?;
         scene.files.push(path);
     }
     let Some(pictures) = pictures else { return Ok(()) };
     for (path, picture) in named(&name, scene, &pictures) {
         let path = directory.join("pictures").join(path);
-        write_file(&path, &picture.png())?;
+        files::write(&path, &picture.png())?;
         scene.files.push(path);
     }
     if let Some(sheet) = sheet(&pictures) {
         let path = directory.join("pictures").join(format!("{name}.png"));
-        write_file(&path, &sheet.png())?;
+        files::write(&path, &sheet.png())?;
         scene.files.push(path);
     }
     scene.reference = Some(shown(&pictures.exact));
@@ -86,15 +87,4 @@ fn sheet(pictures: &ScenePictures) -> Option<Picture> {
 fn file_name(name: &str) -> String {
     let safe = |c: char| if c.is_ascii_alphanumeric() || "-_.=".contains(c) { c } else { '_' };
     name.chars().map(safe).collect::<String>().trim_start_matches('.').to_owned()
-}
-
-/// Writes a file whole or not at all: a neighbour first, then a rename.
-pub(super) fn write_file(path: &Path, bytes: &[u8]) -> Result<(), ReportError> {
-    let io = |source| ReportError::Write { path: PathBuf::from(path), source };
-    if let Some(folder) = path.parent() {
-        std::fs::create_dir_all(folder).map_err(io)?;
-    }
-    let neighbour = path.with_extension(format!("{}.tmp", std::process::id()));
-    std::fs::write(&neighbour, bytes).map_err(io)?;
-    std::fs::rename(&neighbour, path).map_err(io)
 }
