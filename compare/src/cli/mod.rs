@@ -20,7 +20,7 @@ use std::process::ExitCode;
 
 /// How wrong is real-time refraction, and what does it cost?
 #[derive(Debug, Parser)]
-#[command(name = "snell", version, after_help = EXIT_STATUS, max_term_width = 100)]
+#[command(name = "snell", version, max_term_width = 100)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -86,7 +86,10 @@ pub fn main() -> ExitCode {
 
 /// The arguments of this process. Wrong ones end it with exit status 2.
 fn parse() -> Cli {
-    // What holds for every command is written once and shown in every help.
-    let command = Cli::command().mut_subcommands(|command| command.after_help(EXIT_STATUS));
+    // A command that can end in more ways says so in its own words.
+    let command = Cli::command().mut_subcommands(|command| match command.get_after_help() {
+        Some(_) => command,
+        None => command.after_help(EXIT_STATUS),
+    });
     Cli::from_arg_matches(&command.get_matches()).unwrap_or_else(|error| error.exit())
 }

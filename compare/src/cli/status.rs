@@ -1,8 +1,7 @@
 //! How a command ends.
 
-/// The end of every help.
-pub(super) const EXIT_STATUS: &str =
-    "Exit status: 0 done, 1 a gate failed, 2 could not run, 3 inconclusive.";
+/// The end of the help of every command that does not write its own.
+pub(super) const EXIT_STATUS: &str = "Exit status: 0 done, 2 could not run.";
 
 /// How a command ended, if it could run at all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

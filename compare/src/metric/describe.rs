@@ -41,8 +41,17 @@ pub enum Better {
     NearZero,
 }
 
-/// A metric in words.
+/// The layer that a metric compares.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Compared {
+    /// Colours.
+    Radiance,
+    /// Directions in which primary chains leave.
+    Exit,
+}
+
+/// Everything about a metric but its computation.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Description {
     /// Name in results; the radiance scale of PU21 is appended to its name.
     pub name: &'static str,
@@ -56,10 +65,18 @@ pub struct Description {
     pub better: Better,
     /// Where it is defined.
     pub source: &'static str,
+    /// What it compares.
+    pub of: Compared,
+    /// The encoding that it is defined for; `None`: any.
+    pub encoding: Option<Encoding>,
+    /// Its value for equal images, which need not be computed; `None`: infinite.
+    pub if_equal: Option<f64>,
 }
 
 use Better::{Higher, Lower, NearZero};
+use Encoding::{Display, Linear};
 
+/// An error of radiance in any encoding, 0 for equal images.
 const fn new(
     name: &'static str,
     unit: &'static str,
@@ -68,7 +85,22 @@ const fn new(
     formula: &'static str,
     source: &'static str,
 ) -> Description {
-    Description { name, formula, unit, range, better, source }
+    let (of, encoding, if_equal) = (Compared::Radiance, None, Some(0.0));
+    Description { name, formula, unit, range, better, source, of, encoding, if_equal }
+}
+
+impl Description {
+    const fn of_exits(self) -> Self {
+        Self { of: Compared::Exit, ..self }
+    }
+
+    const fn only(self, encoding: Encoding) -> Self {
+        Self { encoding: Some(encoding), ..self }
+    }
+
+    const fn if_equal(self, value: Option<f64>) -> Self {
+        Self { if_equal: value, ..self }
+    }
 }
 
 const ANGLE: &str = "∠ = atan2(|a × b|, a · b) where both chains leave";
@@ -113,18 +145,23 @@ impl Metric {
         let up = "0 upwards";
         match self {
             Self::ExitAngleMedian => {
-                new("exit_angle_median_deg", "deg", "0 to 180", Lower, ANGLE, PLAIN)
+                new("exit_angle_median_deg", "deg", "0 to 180", Lower, ANGLE, PLAIN).of_exits()
             }
-            Self::ExitAngleP95 => new("exit_angle_p95_deg", "deg", "0 to 180", Lower, ANGLE, PLAIN),
+            Self::ExitAngleP95 => {
+                new("exit_angle_p95_deg", "deg", "0 to 180", Lower, ANGLE, PLAIN).of_exits()
+            }
             Self::ExitAngleMean => {
-                new("exit_angle_mean_deg", "deg", "0 to 180", Lower, ANGLE, PLAIN)
+                new("exit_angle_mean_deg", "deg", "0 to 180", Lower, ANGLE, PLAIN).of_exits()
             }
             Self::ExitWithin1Deg => {
-                new("exit_angle_within_1deg", "", "0 to 1", Higher, "share of ∠ <= 1°", PLAIN)
+                let formula = "share of ∠ <= 1°";
+                new("exit_angle_within_1deg", "", "0 to 1", Higher, formula, PLAIN)
+                    .of_exits()
+                    .if_equal(Some(1.0))
             }
             Self::ExitUnmatched => {
                 let formula = "pixels with an exit on one side only / on any side";
-                new("exit_unmatched", "", "0 to 1", Lower, formula, PLAIN)
+                new("exit_unmatched", "", "0 to 1", Lower, formula, PLAIN).of_exits()
             }
             Self::RelMse => {
                 let source = "Rousselle, Knaus & Zwicker 2011, ACM TOG 30(6)";
@@ -136,11 +173,11 @@ impl Metric {
             }
             Self::HdrFlip => {
                 let formula = "mean HDR-FLIP, ACES, 67.02 pixels per degree, pinned exposures";
-                new("flip_hdr", "", "0 to 1", Lower, formula, FLIP)
+                new("flip_hdr", "", "0 to 1", Lower, formula, FLIP).only(Linear)
             }
             Self::LdrFlip => {
                 let formula = "mean LDR-FLIP, 67.02 pixels per degree";
-                new("flip_ldr", "", "0 to 1", Lower, formula, FLIP)
+                new("flip_ldr", "", "0 to 1", Lower, formula, FLIP).only(Display)
             }
             Self::Bias => new("bias", "radiance", "any", NearZero, "mean d", PLAIN),
             Self::Mae => new("mae", "radiance", up, Lower, "mean |d|", PLAIN),
@@ -148,7 +185,7 @@ impl Metric {
             Self::Rmse => new("rmse", "radiance", up, Lower, "√(mean d²)", PLAIN),
             Self::MseCorrected => {
                 let formula = "mean (d² - variance of r): the reference's noise subtracted";
-                new("mse_corrected", "radiance²", "any", Lower, formula, PLAIN)
+                new("mse_corrected", "radiance²", "any", Lower, formula, PLAIN).only(Linear)
             }
             Self::MaxAbs => new("max_abs", "radiance", up, Lower, "max |d|", PLAIN),
             Self::Mape => new("mape_e1e-2", "", up, Lower, "mean |d| / (|r| + 0.01)", PLAIN),
@@ -159,18 +196,29 @@ impl Metric {
             Self::Pu21Psnr => {
                 let formula = "10 log10(256² / mean d²) of PU21-encoded channels";
                 new("pu21_psnr", "dB", "any", Higher, formula, "Mantiuk & Azimi 2021, PCS")
+                    .only(Linear)
+                    .if_equal(None)
             }
             Self::PsnrToneMapped => {
                 new("psnr_reinhard_srgb8", "dB", "any", Higher, TONE_MAPPED_PSNR, PLAIN)
+                    .only(Linear)
+                    .if_equal(None)
             }
             Self::SsimToneMapped => {
                 new("ssim_reinhard_srgb8", "", "-1 to 1", Higher, TONE_MAPPED_SSIM, WANG)
+                    .only(Linear)
+                    .if_equal(Some(1.0))
             }
             Self::Psnr => {
                 new("psnr", "dB", "any", Higher, "10 log10(1 / mean d²) of code values", PLAIN)
+                    .only(Display)
+                    .if_equal(None)
             }
             Self::Ssim => {
-                new("ssim", "", "-1 to 1", Higher, "mean SSIM of the channels' code values", WANG)
+                let formula = "mean SSIM of the channels' code values";
+                new("ssim", "", "-1 to 1", Higher, formula, WANG)
+                    .only(Display)
+                    .if_equal(Some(1.0))
             }
         }
     }
@@ -179,11 +227,11 @@ impl Metric {
     #[must_use]
     pub fn name(self, selection: &Selection) -> String {
         let name = self.describe().name;
-        match self {
-            Self::Pu21Psnr => format!("{name}_x{}", selection.nits_per_unit),
-            Self::RelMse if selection.frozen.is_some() => format!("{name}_frozen"),
-            _ => name.to_owned(),
+        if self == Self::Pu21Psnr {
+            return format!("{name}_x{}", selection.nits_per_unit);
         }
+        let frozen = self == Self::RelMse && selection.frozen.is_some();
+        format!("{name}{}", if frozen { "_frozen" } else { "" })
     }
 
     /// True for means of the FLIP map.
@@ -191,31 +239,10 @@ impl Metric {
         matches!(self, Self::HdrFlip | Self::LdrFlip)
     }
 
-    /// True for what the exit layers answer, not the colours.
-    #[must_use]
-    pub const fn is_of_exits(self) -> bool {
-        matches!(
-            self,
-            Self::ExitAngleMedian
-                | Self::ExitAngleP95
-                | Self::ExitAngleMean
-                | Self::ExitWithin1Deg
-                | Self::ExitUnmatched
-        )
-    }
-
     /// True if images of that encoding can have this metric.
     #[must_use]
     pub fn takes(self, encoding: Encoding) -> bool {
-        match self {
-            Self::LdrFlip | Self::Psnr | Self::Ssim => encoding == Encoding::Display,
-            Self::HdrFlip
-            | Self::Pu21Psnr
-            | Self::PsnrToneMapped
-            | Self::SsimToneMapped
-            | Self::MseCorrected => encoding == Encoding::Linear,
-            _ => true,
-        }
+        self.describe().encoding.is_none_or(|only| only == encoding)
     }
 
     /// The metric of that name in results, if it is one of ours.
@@ -225,5 +252,22 @@ impl Metric {
             let own = metric.describe().name;
             name == own || (*metric == Self::Pu21Psnr && name.starts_with(own))
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The enumeration has no more members than the list, and each is there once.
+    #[test]
+    fn the_list_holds_every_metric_once() {
+        for (place, metric) in Metric::ALL.into_iter().enumerate() {
+            assert_eq!(metric as usize, place, "{metric:?}");
+            assert_eq!(Metric::named(metric.describe().name), Some(metric));
+        }
+        let source = include_str!("describe.rs");
+        let body = source.split("pub enum Metric {").nth(1).and_then(|rest| rest.split('}').next());
+        assert_eq!(body.map_or(0, |body| body.matches(',').count()), Metric::ALL.len());
     }
 }

@@ -2,7 +2,7 @@
 
 use super::judgement_error::JudgementError;
 use super::pair::{Answer, Pair, Sides, values_not_finite};
-use super::{Candidate, Mask, Measurement, Metric, Reference, Selection};
+use super::{Candidate, Compared, Mask, Measurement, Metric, Reference, Selection};
 use crate::results::{NotDone, Status};
 use rayon::prelude::*;
 
@@ -100,9 +100,9 @@ fn measure(
         (found.status, found.reason) = (Status::Invalid, format!("candidate: {reason}"));
     } else if pixels.is_some_and(<[usize]>::is_empty) {
         (found.status, found.reason) = (Status::Undefined, "no pixel in the mask".to_owned());
-    } else if !metric.is_of_exits() && sides.reference == sides.candidate {
+    } else if metric.describe().of == Compared::Radiance && sides.reference == sides.candidate {
         found.n = pixels.map_or(pair.pixel_count(), <[usize]>::len) as u64;
-        (found.status, found.value) = (Status::Identical, of_identical(metric));
+        (found.status, found.value) = (Status::Identical, metric.describe().if_equal);
         found.reason = "the images are equal, nothing was computed".to_owned();
     } else {
         fill(&mut found, pair.answer(metric, sides, pixels));
@@ -118,10 +118,9 @@ fn sides<'a>(pair: &Pair<'a>, metric: Metric) -> Result<Sides<'a>, &'static str>
     if metric == Metric::MseCorrected && pair.variance.is_none() {
         return Err("the reference carries no variance: there is no noise to subtract");
     }
-    if metric.is_of_exits() {
-        pair.exit.ok_or("no exit layer on both sides")
-    } else {
-        pair.radiance.ok_or("no radiance layer on both sides")
+    match metric.describe().of {
+        Compared::Exit => pair.exit.ok_or("no exit layer on both sides"),
+        Compared::Radiance => pair.radiance.ok_or("no radiance layer on both sides"),
     }
 }
 
@@ -142,14 +141,5 @@ fn fill(found: &mut Measurement, answer: Answer) {
             found.reason = "the judged pixels are equal".to_owned();
         }
         Answer::Undefined(reason) => (found.status, found.reason) = (Status::Undefined, reason),
-    }
-}
-
-/// The value that equal images have without computing it.
-fn of_identical(metric: Metric) -> Option<f64> {
-    match metric {
-        Metric::Psnr | Metric::PsnrToneMapped | Metric::Pu21Psnr => None,
-        Metric::Ssim | Metric::SsimToneMapped => Some(1.0),
-        _ => Some(0.0),
     }
 }

@@ -16,7 +16,7 @@ pub mod relative;
 pub mod ssim;
 pub mod stack;
 
-pub use describe::{Better, Description, Metric};
+pub use describe::{Better, Compared, Description, Metric};
 pub use flip::Exposures;
 pub use judge::{Judgement, judge};
 pub use judgement_error::JudgementError;

@@ -128,10 +128,10 @@ impl<'a> Pair<'a> {
                 Some(share) => number(share),
                 None => Answer::Undefined("no pixel has an exit".to_owned()),
             },
-            _ => match summarise(exit_angle_map_deg(r, t)) {
-                Some(angles) => Answer::Value(of_angles(metric, &angles), angles.n as u64),
-                None => Answer::Undefined("no pixel has an exit on both sides".to_owned()),
-            },
+            Metric::ExitAngleMedian => of_angles(r, t, |angles| angles.median_deg),
+            Metric::ExitAngleP95 => of_angles(r, t, |angles| angles.p95_deg),
+            Metric::ExitAngleMean => of_angles(r, t, |angles| angles.mean_deg),
+            Metric::ExitWithin1Deg => of_angles(r, t, |angles| angles.share_within_1_deg),
         }
     }
 
@@ -190,12 +190,11 @@ impl<'a> Pair<'a> {
     }
 }
 
-fn of_angles(metric: Metric, angles: &ExitAngles) -> f64 {
-    match metric {
-        Metric::ExitAngleMedian => angles.median_deg,
-        Metric::ExitAngleP95 => angles.p95_deg,
-        Metric::ExitWithin1Deg => angles.share_within_1_deg,
-        _ => angles.mean_deg,
+/// One figure of the angles between exits.
+fn of_angles(r: &[f64], t: &[f64], figure: impl Fn(&ExitAngles) -> f64) -> Answer {
+    match summarise(exit_angle_map_deg(r, t)) {
+        Some(angles) => Answer::Value(figure(&angles), angles.n as u64),
+        None => Answer::Undefined("no pixel has an exit on both sides".to_owned()),
     }
 }
 

@@ -127,8 +127,6 @@ pub struct Study {
     pub schema: String,
     /// Version of snell.
     pub version: String,
-    /// Commit of the sources, if known.
-    pub commit: String,
     /// When the study ended, RFC 3339, UTC.
     pub finished_utc: String,
     /// Command line that repeats it.
