@@ -92,7 +92,7 @@ pub fn find(name_or_path: &str) -> Result<Scene, Error> {
     }
     let is = |wanted: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(wanted));
     if is("gltf") || is("glb") {
-        return Ok(import::load(path)?);
+        return Ok(import::load(path, crate::format::default_sky)?);
     }
     format::load(path)
 }

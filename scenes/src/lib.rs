@@ -7,6 +7,7 @@
 
 pub mod builtin;
 pub mod camera;
+pub mod deform;
 pub mod environment;
 pub mod export;
 pub mod format;
@@ -17,7 +18,6 @@ pub mod import;
 pub mod medium;
 pub mod mesh;
 mod plain;
-mod proxy;
 pub mod rendering;
 pub mod scene;
 pub mod shape;
@@ -27,9 +27,9 @@ pub use builtin::{Builtin, builtin, builtins, find};
 pub use camera::{Camera, Projection, Ray};
 pub use environment::{Cube, Environment};
 pub use format::{Error, load, parse};
-pub use ice::{air, crack, distance, noise};
+pub use ice::{air, crack, noise};
 pub use medium::{Dispersion, Medium, MediumId, eta, eta::Eta, materials};
-pub use mesh::{Mesh, deform, normals, obj, topology};
+pub use mesh::{Mesh, distance, normals, obj, topology};
 pub use rendering::layer::{Layer, LayerName, Layers};
 
 pub use rendering::{Rendering, View, layer, plan, plan::Plan};

@@ -2,11 +2,12 @@
 //! the exact one.
 
 use crate::Shape;
-use crate::distance::clearance_m;
+use crate::distance::{to_triangle_m, winding};
 use crate::ice::pose::{centre_and_diagonal, offset, placed, rotation};
 use crate::noise::SplitMix64;
 use crate::scene::Air;
 use glam::{DAffine3, DVec3};
+use rayon::prelude::*;
 
 /// A spherical bubble in the body's space.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,12 +51,44 @@ pub fn bubbles(air: &Air, shape: &Shape) -> Vec<Bubble> {
     bubbles
 }
 
+/// Distance from a point inside a shape to its surface, metres; not positive
+/// outside.
+fn clearance_m(shape: &Shape, p: DVec3) -> f64 {
+    match shape {
+        Shape::Mesh(mesh) if winding(mesh, p) < 0.5 => 0.0,
+        Shape::Mesh(mesh) => (0..mesh.triangles.len())
+            .into_par_iter()
+            .map(|index| to_triangle_m(mesh.corners(index), p))
+            .reduce(|| f64::INFINITY, f64::min),
+        Shape::Sphere { radius_m } => radius_m - p.length(),
+        Shape::Slab { thickness_m } => 0.5 * thickness_m - p.z.abs(),
+        Shape::HalfSpace => -p.y,
+        Shape::Box { half_extent_m } => (*half_extent_m - p.abs()).min_element(),
+        Shape::Cylinder { radius_m, half_height_m } => {
+            (radius_m - p.x.hypot(p.z)).min(half_height_m - p.y.abs())
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::generate::{cuboid, shell};
 
     const AIR: Air = Air { planes: 19, bubbles: 40, bubble_radius: 0.02, seed: 4 };
+
+    #[test]
+    fn a_mesh_and_the_shape_it_shows_have_the_same_clearance() {
+        let half_extent_m = DVec3::new(0.4, 0.7, 1.0);
+        let mesh = Shape::Mesh(cuboid(half_extent_m));
+        let exact = Shape::Box { half_extent_m };
+        let mut random = crate::noise::SplitMix64(2);
+        for _ in 0..500 {
+            let p = DVec3::from_array([0; 3].map(|_| 2.0 * random.uniform() - 1.0));
+            let (found, expected) = (clearance_m(&mesh, p), clearance_m(&exact, p));
+            assert!((found - expected.max(0.0)).abs() < 1e-14, "{p}: {found} {expected}");
+        }
+    }
 
     #[test]
     fn planes_go_through_the_centre_and_differ() {

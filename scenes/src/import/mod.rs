@@ -35,15 +35,15 @@ struct Reader<'a> {
 
 /// Reads a `.gltf` or `.glb` file with the environment and the size of image
 /// that its scene's extras name (as [`crate::export`] writes them); without
-/// them, under the sky of the built-in scenes at 512 x 512 pixels.
+/// them, under `sky` at 512 x 512 pixels.
 ///
 /// # Errors
 /// As [`read`], and an environment map that cannot be read.
-pub fn load(path: &Path) -> Result<Scene, ImportError> {
+pub fn load(path: &Path, sky: impl FnOnce() -> Environment) -> Result<Scene, ImportError> {
     let file = File::open(path)?;
     let extras = Extras::of(&file.document, path)?;
     let sha256 = extras.sha256;
-    let environment = extras.environment.unwrap_or_else(crate::format::default_sky);
+    let environment = extras.environment.unwrap_or_else(sky);
     let mut scene = file.scene(path, environment, extras.resolution_px.unwrap_or([512, 512]))?;
     scene.source.sha256.push_str(&sha256);
     scene.warnings.extend(extras.warnings);

@@ -1,6 +1,6 @@
 //! Triangle meshes in object space, f64.
 
-pub mod deform;
+pub mod distance;
 pub mod normals;
 pub mod obj;
 pub(crate) mod polygon;

@@ -1,28 +1,8 @@
-//! How far inside a body a point is.
+//! Where a point is relative to a mesh: how far from its triangles, and how often
+//! it is inside.
 
-use crate::{Mesh, Shape};
+use crate::Mesh;
 use glam::DVec3;
-use rayon::prelude::*;
-
-/// Distance from a point inside a shape to its surface, metres; not positive
-/// outside.
-#[must_use]
-pub fn clearance_m(shape: &Shape, p: DVec3) -> f64 {
-    match shape {
-        Shape::Mesh(mesh) if winding(mesh, p) < 0.5 => 0.0,
-        Shape::Mesh(mesh) => (0..mesh.triangles.len())
-            .into_par_iter()
-            .map(|index| to_triangle_m(mesh.corners(index), p))
-            .reduce(|| f64::INFINITY, f64::min),
-        Shape::Sphere { radius_m } => radius_m - p.length(),
-        Shape::Slab { thickness_m } => 0.5 * thickness_m - p.z.abs(),
-        Shape::HalfSpace => -p.y,
-        Shape::Box { half_extent_m } => (*half_extent_m - p.abs()).min_element(),
-        Shape::Cylinder { radius_m, half_height_m } => {
-            (radius_m - p.x.hypot(p.z)).min(half_height_m - p.y.abs())
-        }
-    }
-}
 
 /// How often a mesh winds around a point: the sum of its triangles' solid angles
 /// over 4π. A whole number off a closed surface, within rounding.
@@ -69,20 +49,7 @@ fn to_segment_m(a: DVec3, b: DVec3, p: DVec3) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::generate::{cuboid, shell, teapot};
-
-    #[test]
-    fn a_mesh_and_the_shape_it_shows_have_the_same_clearance() {
-        let half_extent_m = DVec3::new(0.4, 0.7, 1.0);
-        let mesh = Shape::Mesh(cuboid(half_extent_m));
-        let exact = Shape::Box { half_extent_m };
-        let mut random = crate::noise::SplitMix64(2);
-        for _ in 0..500 {
-            let p = DVec3::from_array([0; 3].map(|_| 2.0 * random.uniform() - 1.0));
-            let (found, expected) = (clearance_m(&mesh, p), clearance_m(&exact, p));
-            assert!((found - expected.max(0.0)).abs() < 1e-14, "{p}: {found} {expected}");
-        }
-    }
+    use crate::generate::{shell, teapot};
 
     #[test]
     fn distances_to_faces_edges_and_corners() {
