@@ -11,8 +11,8 @@ use serde::Serialize;
 /// Rays that a thread takes at a time.
 const CHUNK: usize = 4096;
 
-/// One way to trace all rays of an input once.
-pub(super) type Run<'a> = Box<dyn FnMut() -> Result<Taken, BenchError> + 'a>;
+/// One way to trace all rays of an input once, when it is its turn.
+pub(super) type Turn<'a> = Box<dyn FnMut() -> Result<Taken, BenchError> + 'a>;
 
 /// The speed of one set of instructions on some threads.
 #[derive(Clone, Debug, Serialize)]
@@ -77,8 +77,8 @@ impl<'a> Bench<'a> {
     }
 
     /// Each way as something to time.
-    pub(super) fn runs(&'a self) -> Vec<Run<'a>> {
-        let run = |way: &'a Way| -> Run<'a> {
+    pub(super) fn runs(&'a self) -> Vec<Turn<'a>> {
+        let run = |way: &'a Way| -> Turn<'a> {
             Box::new(|| {
                 let (taken, answer) = timed(|| way.trace(self.input));
                 self.check(way, answer).map(|()| taken)
@@ -148,7 +148,7 @@ impl Way {
 /// Runs all in turns, each turn starting with another one, so that what slows
 /// the machine for a while slows all alike.
 pub(super) fn interleaved(
-    runs: &mut [Run<'_>],
+    runs: &mut [Turn<'_>],
     repetitions: usize,
     progress: impl Fn(f64),
 ) -> Result<Vec<Vec<Taken>>, BenchError> {
@@ -173,7 +173,7 @@ mod tests {
     #[test]
     fn runs_take_turns_and_an_error_ends_them() {
         let order = std::cell::RefCell::new(Vec::new());
-        let run = |which: usize| -> Run<'_> {
+        let run = |which: usize| -> Turn<'_> {
             let order = &order;
             Box::new(move || {
                 order.borrow_mut().push(which);
@@ -184,7 +184,7 @@ mod tests {
         let taken = interleaved(&mut [run(0), run(1), run(2)], 3, |_| ()).unwrap();
         assert_eq!(*order.borrow(), [0, 1, 2, 1, 2, 0, 2, 0, 1]);
         assert_eq!(taken[2], [Taken { cpu_s: 2.0, wall_s: 2.0 }; 3]);
-        let broken: Run<'_> =
+        let broken: Turn<'_> =
             Box::new(|| Err(BenchError::Other { program: "made up", why: "broke off".to_owned() }));
         assert!(interleaved(&mut [run(0), broken], 3, |_| ()).is_err());
     }

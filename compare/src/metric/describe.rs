@@ -216,9 +216,7 @@ impl Metric {
             }
             Self::Ssim => {
                 let formula = "mean SSIM of the channels' code values";
-                new("ssim", "", "-1 to 1", Higher, formula, WANG)
-                    .only(Display)
-                    .if_equal(Some(1.0))
+                new("ssim", "", "-1 to 1", Higher, formula, WANG).only(Display).if_equal(Some(1.0))
             }
         }
     }

@@ -3,7 +3,7 @@
 use super::judgement_error::JudgementError;
 use super::pair::{Answer, Pair, Sides, values_not_finite};
 use super::{Candidate, Compared, Mask, Measurement, Metric, Reference, Selection};
-use crate::results::{NotDone, Status};
+use crate::results::{NotDone, Validity};
 use rayon::prelude::*;
 
 /// Everything that was asked about a pair, answered or left out.
@@ -91,18 +91,18 @@ fn measure(
         value: None,
         interval: None,
         n: 0,
-        status: Status::Ok,
+        status: Validity::Ok,
         reason: String::new(),
         formula: metric.describe().formula.to_owned(),
     };
     let broken = values_not_finite(sides.candidate, pair.size_px[0]);
     if let Some(reason) = broken {
-        (found.status, found.reason) = (Status::Invalid, format!("candidate: {reason}"));
+        (found.status, found.reason) = (Validity::Invalid, format!("candidate: {reason}"));
     } else if pixels.is_some_and(<[usize]>::is_empty) {
-        (found.status, found.reason) = (Status::Undefined, "no pixel in the mask".to_owned());
+        (found.status, found.reason) = (Validity::Undefined, "no pixel in the mask".to_owned());
     } else if metric.describe().of == Compared::Radiance && sides.reference == sides.candidate {
         found.n = pixels.map_or(pair.pixel_count(), <[usize]>::len) as u64;
-        (found.status, found.value) = (Status::Identical, metric.describe().if_equal);
+        (found.status, found.value) = (Validity::Identical, metric.describe().if_equal);
         found.reason = "the images are equal, nothing was computed".to_owned();
     } else {
         fill(&mut found, pair.answer(metric, sides, pixels));
@@ -133,13 +133,13 @@ fn fill(found: &mut Measurement, answer: Answer) {
                 (Some(error.corrected), n, Some(error.interval));
         }
         Answer::Value(value, _) => {
-            found.status = Status::Undefined;
+            found.status = Validity::Undefined;
             found.reason = format!("it overflows to {value}");
         }
         Answer::Endless => {
-            found.status = Status::Identical;
+            found.status = Validity::Identical;
             found.reason = "the judged pixels are equal".to_owned();
         }
-        Answer::Undefined(reason) => (found.status, found.reason) = (Status::Undefined, reason),
+        Answer::Undefined(reason) => (found.status, found.reason) = (Validity::Undefined, reason),
     }
 }

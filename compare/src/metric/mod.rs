@@ -22,7 +22,7 @@ pub use judge::{Judgement, judge};
 pub use judgement_error::JudgementError;
 
 pub use crate::results::Mask;
-use crate::results::{ResultRow, RowKind, Status};
+use crate::results::{ResultRow, RowKind, Validity};
 use scenes::Layers;
 pub use scenes::image::Encoding;
 use serde::Serialize;
@@ -84,7 +84,7 @@ pub struct Measurement {
     /// Pixels behind the value.
     pub n: u64,
     /// Whether the value can be used.
-    pub status: Status,
+    pub status: Validity,
     /// Why there is no number; empty when there is one.
     pub reason: String,
     /// How it is defined; d = candidate - reference.

@@ -4,10 +4,10 @@ use super::number::{bytes, digits, duration};
 use super::numbers::{Numbers, is_better, usable};
 use super::page::{Cell, MethodView, Page, SceneView};
 use super::pictures::SceneImages;
-use super::runs::{COLUMNS, display_name, find, methods_of, styles};
-use super::{ReportError, beside, scene_plots, verdict, viewer};
+use super::runs::{MERITS, display_name, find, methods_of, styles};
+use super::{ReportError, folder, scene_plots, verdict, viewer};
 use crate::metric::{Better, Mask, Metric};
-use crate::results::{REFERENCE, ResultRow, RowKind, Run, SceneEntry, Status, Study, saved_ms};
+use crate::results::{REFERENCE, ResultRow, RowKind, Run, SceneEntry, Study, Validity, saved_ms};
 use rayon::prelude::*;
 use std::path::Path;
 
@@ -28,7 +28,7 @@ pub(super) fn assemble(
         let mut view = scene_view(index, entry, &study, &numbers, &styles);
         view.ev = images.ev;
         view.data = viewer::data(&view, &images, factor);
-        beside::place(directory, &mut view, images.pictures())?;
+        folder::place(directory, &mut view, images.pictures())?;
         Ok(view)
     };
     let scenes: Result<Vec<SceneView>, ReportError> =
@@ -36,7 +36,7 @@ pub(super) fn assemble(
     let scenes = scenes?;
     Ok(Page {
         headline: verdict::sentences(&study, &numbers),
-        columns: COLUMNS.map(|(_, head, unit)| (head, unit)).to_vec(),
+        columns: MERITS.map(|(_, head, unit)| (head, unit)).to_vec(),
         metrics: descriptions(),
         viewer_json: viewer::contents(&scenes),
         size_note: viewer::note(factor),
@@ -98,7 +98,7 @@ fn method_view(
     });
     MethodView {
         style: style % 7,
-        cells: COLUMNS.map(|(metric, ..)| cell(metric, find(numbers, run, metric))).to_vec(),
+        cells: MERITS.map(|(metric, ..)| cell(metric, find(numbers, run, metric))).to_vec(),
         time: Cell {
             text: time.and_then(usable).map_or("—".to_owned(), duration),
             note: time.map(|row| format!("{}, {} frames", row.metric, row.n)).unwrap_or_default(),
@@ -142,10 +142,10 @@ fn number_line(row: &ResultRow) -> [String; 5] {
         _ => String::new(),
     };
     let note = match row.status {
-        Status::Ok => String::new(),
-        Status::Identical => "identical: ".to_owned(),
-        Status::Undefined => "undefined: ".to_owned(),
-        Status::Invalid => "invalid: ".to_owned(),
+        Validity::Ok => String::new(),
+        Validity::Identical => "identical: ".to_owned(),
+        Validity::Undefined => "undefined: ".to_owned(),
+        Validity::Invalid => "invalid: ".to_owned(),
     };
     [
         format!("{}{mask}", row.metric),
@@ -171,9 +171,9 @@ fn cell(metric: Metric, row: Option<&ResultRow>) -> Cell {
             Cell { text: digits(scale * value), note: full, ..Cell::default() }
         }
         None => Cell {
-            text: if row.status == Status::Invalid { "invalid" } else { "—" }.to_owned(),
+            text: if row.status == Validity::Invalid { "invalid" } else { "—" }.to_owned(),
             note: row.reason.clone(),
-            invalid: row.status == Status::Invalid,
+            invalid: row.status == Validity::Invalid,
             best: false,
         },
     }
@@ -185,7 +185,7 @@ fn mark_best(views: &mut [MethodView], runs: &[&Run], numbers: &Numbers, study: 
     if runs.len() < 2 {
         return;
     }
-    for (column, (metric, ..)) in COLUMNS.into_iter().enumerate() {
+    for (column, (metric, ..)) in MERITS.into_iter().enumerate() {
         let value = |i: usize| find(numbers, runs[i], metric).and_then(usable);
         let best = (0..runs.len())
             .filter_map(value)

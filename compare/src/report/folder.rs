@@ -1,4 +1,5 @@
-//! The files beside the page: pictures in full size, contact sheets, plots.
+//! The folder of a report, beside the page: pictures in full size, contact sheets,
+//! plots.
 
 use super::ReportError;
 use super::page::{SceneView, Shown};

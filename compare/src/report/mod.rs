@@ -2,7 +2,7 @@
 //! spreadsheet, pictures.
 
 mod assemble;
-mod beside;
+mod folder;
 pub mod number;
 mod numbers;
 mod page;

@@ -1,7 +1,7 @@
 //! The rows of a study, found by scene, run and metric.
 
 use crate::metric::{Better, Mask, Metric};
-use crate::results::{REFERENCE, ResultRow, RowKind, Run, Status};
+use crate::results::{REFERENCE, ResultRow, RowKind, Run, Validity};
 use std::collections::BTreeMap;
 
 /// Rows by scene and run, in file order.
@@ -57,7 +57,7 @@ impl<'a> Numbers<'a> {
 
 /// The value of a row, if it may be used.
 pub(super) fn usable(row: &ResultRow) -> Option<f64> {
-    row.value.filter(|_| matches!(row.status, Status::Ok | Status::Identical))
+    row.value.filter(|_| matches!(row.status, Validity::Ok | Validity::Identical))
 }
 
 /// True if `a` is better than `b` by the direction of the metric.

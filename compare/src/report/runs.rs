@@ -5,7 +5,7 @@ use crate::metric::Metric;
 use crate::results::{REFERENCE, ResultRow, Run, Study};
 
 /// Metrics of the verdict table: figures of merit first.
-pub(super) const COLUMNS: [(Metric, &str, &str); 6] = [
+pub(super) const MERITS: [(Metric, &str, &str); 6] = [
     (Metric::ExitAngleMedian, "exit angle, median", "°"),
     (Metric::ExitAngleP95, "95th percentile", "°"),
     (Metric::ExitWithin1Deg, "within 1°", "%"),

@@ -55,7 +55,7 @@ pub enum Mask {
 /// Whether a value can be used.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Status {
+pub enum Validity {
     /// The value is the metric.
     #[default]
     Ok,
@@ -114,7 +114,7 @@ pub struct ResultRow {
     /// Pixels, frames or samples behind the value.
     pub n: u64,
     /// Whether the value can be used.
-    pub status: Status,
+    pub status: Validity,
     /// Why there is no value; empty when there is one.
     pub reason: String,
 }

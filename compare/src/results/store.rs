@@ -114,7 +114,7 @@ fn check_schema(
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may stop at the first failure")]
     use super::*;
-    use crate::results::Status;
+    use crate::results::Validity;
 
     #[test]
     fn rows_survive_the_file_and_a_foreign_schema_does_not() {
@@ -125,7 +125,7 @@ mod tests {
             value: Some(0.1 + 0.2),
             ..ResultRow::default()
         };
-        let nothing = ResultRow { value: None, status: Status::Invalid, ..row.clone() };
+        let nothing = ResultRow { value: None, status: Validity::Invalid, ..row.clone() };
         write_rows(directory.path(), &[row.clone(), nothing.clone()]).unwrap();
         assert_eq!(read_rows(directory.path()).unwrap(), [row.clone(), nothing]);
 

@@ -1,9 +1,9 @@
 //! The table a study ends with: scene x method, error, time, what was left out.
 
-use crate::results::{REFERENCE, ResultRow, Status, Study, saved_ms};
+use crate::results::{REFERENCE, ResultRow, Study, Validity, saved_ms};
 
-/// Columns: heading, metric, unit, digits after the point.
-const COLUMNS: [(&str, &str, usize); 4] = [
+/// Heading, metric, digits after the point.
+const ERRORS: [(&str, &str, usize); 4] = [
     ("median exit", "exit_angle_median_deg", 2),
     ("p95 exit", "exit_angle_p95_deg", 2),
     ("relmse_e1e-2", "relmse_e1e-2", 4),
@@ -14,7 +14,7 @@ const COLUMNS: [(&str, &str, usize); 4] = [
 #[must_use]
 pub fn summary(study: &Study, rows: &[ResultRow]) -> Vec<Vec<String>> {
     let mut table = vec![vec!["scene".to_owned(), "method".to_owned()]];
-    table[0].extend(COLUMNS.map(|(heading, ..)| heading.to_owned()));
+    table[0].extend(ERRORS.map(|(heading, ..)| heading.to_owned()));
     table[0].extend(["GPU ms", "left out"].map(str::to_owned));
     for run in study.runs.iter().filter(|run| run.method != REFERENCE) {
         let value = |metric: &str, digits: usize| {
@@ -22,7 +22,7 @@ pub fn summary(study: &Study, rows: &[ResultRow]) -> Vec<Vec<String>> {
             cell(rows.iter().find(of_run), digits)
         };
         let mut line = vec![run.scene.clone(), run.method.clone()];
-        line.extend(COLUMNS.map(|(_, metric, digits)| value(metric, digits)));
+        line.extend(ERRORS.map(|(_, metric, digits)| value(metric, digits)));
         line.push(value(&study.time_metric, 2));
         let of_run = || rows.iter().filter(|row| row.id == run.id && row.scene == run.scene);
         line.push(left_out(&run.plan, saved_ms(of_run(), &study.time_metric)));
@@ -34,8 +34,8 @@ pub fn summary(study: &Study, rows: &[ResultRow]) -> Vec<Vec<String>> {
 fn cell(row: Option<&ResultRow>, digits: usize) -> String {
     let Some(row) = row else { return "-".to_owned() };
     match (row.status, row.value) {
-        (Status::Ok | Status::Identical, Some(value)) => format!("{value:.digits$}"),
-        (Status::Invalid, _) => "invalid".to_owned(),
+        (Validity::Ok | Validity::Identical, Some(value)) => format!("{value:.digits$}"),
+        (Validity::Invalid, _) => "invalid".to_owned(),
         _ => "-".to_owned(),
     }
 }

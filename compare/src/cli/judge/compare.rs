@@ -6,7 +6,7 @@ use crate::cli::output::{Output, table};
 use crate::cli::status::Status;
 use crate::image_pair::{Comparison, Question, compare_files};
 use crate::metric::{Exposures, Measurement};
-use crate::results::{NotDone, Status as Usable};
+use crate::results::{NotDone, Validity};
 use scenes::image::Alpha;
 use serde::Serialize;
 use std::path::PathBuf;
@@ -66,7 +66,7 @@ pub(in crate::cli) fn run(args: &Args, output: Output) -> Result<Status, Error> 
         output.line(&left_out(&judgement.left_out))?;
         output.line(&format!("alpha: {alpha}"))?;
     }
-    let invalid = |m: &Measurement| m.status == Usable::Invalid;
+    let invalid = |m: &Measurement| m.status == Validity::Invalid;
     match judgement.measurements.iter().find(|m| invalid(m)) {
         Some(m) => Err(Error::Image { path: args.test.clone(), why: m.reason.clone() }),
         None => Ok(Status::Done),

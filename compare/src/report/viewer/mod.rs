@@ -4,7 +4,7 @@ pub mod block;
 
 use super::page::{ImageData, SceneData, SceneView};
 use super::pictures::{SceneImages, colour_map};
-use super::runs::{COLUMNS, methods_of};
+use super::runs::{MERITS, methods_of};
 use crate::results::Study;
 use serde_json::json;
 
@@ -78,7 +78,7 @@ fn facts(view: &SceneView, names: &[&str]) -> Vec<Vec<(String, String)>> {
         let Some(method) = view.methods.iter().find(|method| method.name == **name) else {
             return Vec::new();
         };
-        let columns = COLUMNS
+        let columns = MERITS
             .iter()
             .zip(&method.cells)
             .map(|((_, head, unit), cell)| (head.to_string(), format!("{} {unit}", cell.text)));
