@@ -6,7 +6,7 @@ use crate::metric::{
     Candidate, Encoding, Exposures, Judgement, JudgementError, Mask, Measurement, Reference,
     Selection, judge,
 };
-use crate::results::Status;
+use crate::results::Validity;
 use scenes::LayerName;
 use scenes::image::{Alpha, Picture};
 use std::path::{Path, PathBuf};
@@ -188,9 +188,9 @@ fn add_alpha(judgement: &mut Judgement, reference: &Picture, candidate: &Picture
     let of = |picture: &Picture| picture.alpha.clone().unwrap_or_else(|| opaque.clone());
     let (r, t) = (of(reference), of(candidate));
     if max_abs(&r, &t) > 0.0 {
-        for equal in judgement.measurements.iter_mut().filter(|m| m.status == Status::Identical) {
+        for equal in judgement.measurements.iter_mut().filter(|m| m.status == Validity::Identical) {
             let is_known = equal.value.is_some();
-            equal.status = if is_known { Status::Ok } else { Status::Undefined };
+            equal.status = if is_known { Validity::Ok } else { Validity::Undefined };
             equal.reason =
                 "the colours are equal where alpha does not hide them, alpha differs".to_owned();
         }
@@ -202,7 +202,7 @@ fn add_alpha(judgement: &mut Judgement, reference: &Picture, candidate: &Picture
         value: Some(mae(&r, &t)),
         interval: None,
         n: r.len() as u64,
-        status: if r == t { Status::Identical } else { Status::Ok },
+        status: if r == t { Validity::Identical } else { Validity::Ok },
         reason: String::new(),
         formula: "mean |d| of the opacity, 0..1".to_owned(),
     });

@@ -11,8 +11,9 @@ use glam::DVec3;
 use reference::interface::fresnel;
 use scenes::scene::Normals;
 use scenes::{MediumId, Scene, Shape, Surface};
-use shots::{angle, gather_by_order, shoot};
+use shots::{gather_by_order, shoot};
 use std::f64::consts::PI;
+use test_support::angle;
 
 fn ball(eta: f64) -> Scene {
     furnace(vec![object(Shape::Sphere { radius_m: 1.0 }, 1, Normals::Flat)], eta)

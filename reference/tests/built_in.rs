@@ -9,11 +9,12 @@
 
 mod common;
 
-use common::{furnace, object, view};
+use common::{furnace, object};
 use reference::{Estimator, Level, Request, render};
 use scenes::generate::builtin;
 use scenes::scene::Normals;
 use scenes::{LayerName, Shape};
+use test_support::view;
 
 const CLOSED: [&str; 20] = [
     "sphere-960",

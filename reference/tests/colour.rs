@@ -4,7 +4,7 @@
 mod common;
 mod shots;
 
-use common::{cup, furnace, object, view};
+use common::{cup, furnace, object};
 use glam::DVec3;
 use reference::{EnvironmentLookup, Level, Request, render};
 use scenes::environment::{Cube, LatLong, Map};
@@ -13,6 +13,7 @@ use scenes::scene::Normals;
 use scenes::{Dispersion, Environment, Eta, LayerName, Medium, Scene, Shape};
 use shots::{gather, shoot};
 use std::sync::Arc;
+use test_support::view;
 
 fn close(found: f64, expected: f64, within: f64) {
     assert!((found - expected).abs() <= within, "{found} is not {expected} within {within}");

@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{cup, furnace, icosphere, object, torus, view};
+use common::{cup, furnace, icosphere, object, torus};
 use glam::DVec3;
 use reference::{Error, Estimator, Level, Paths, Positions, Request, Restriction, render};
 use scenes::environment::{LatLong, Map};
@@ -12,6 +12,7 @@ use scenes::{
     Cube, Dispersion, Environment, LayerName, MediumId, Projection, Scene, Shape, Surface,
 };
 use std::sync::Arc;
+use test_support::view;
 
 fn lit(mut scene: Scene) -> Scene {
     scene.environment = Environment::Map(Arc::new(Map {

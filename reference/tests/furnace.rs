@@ -4,10 +4,11 @@
 
 mod common;
 
-use common::{furnace, meshes, object, view};
+use common::{furnace, meshes, object};
 use reference::{Estimator, Level, Request, render};
 use scenes::scene::Normals;
 use scenes::{LayerName, Rendering, Shape};
+use test_support::view;
 
 fn white(rendering: &Rendering) -> (f64, f64, Vec<f64>) {
     let radiance = &rendering.layers.get(&LayerName::Radiance).unwrap().data;

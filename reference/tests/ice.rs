@@ -3,12 +3,13 @@
 
 mod common;
 
-use common::{cube, furnace, icosphere, object, torus, view};
+use common::{cube, furnace, icosphere, object, torus};
 use glam::DVec3;
 use reference::{Error, Level, Request, render};
 use scenes::scene::{Air, Bump, Crack, Motion, Normals, Wave};
 use scenes::topology::{NotABody, NotSolid};
 use scenes::{LayerName, Mesh, Rendering, Scene, Shape};
+use test_support::view;
 
 fn ice(mesh: Mesh, normals: Normals) -> Scene {
     furnace(vec![object(Shape::Mesh(mesh), 1, normals)], 1.309)

@@ -9,12 +9,13 @@
 mod common;
 mod shots;
 
-use common::{cup, furnace, icosphere, object, torus, view};
+use common::{cup, furnace, icosphere, object, torus};
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 use reference::{Level, Request, render};
 use scenes::scene::Normals;
 use scenes::{LayerName, MediumId, Rendering, Scene, Shape, Surface};
-use shots::{angle, shoot};
+use shots::shoot;
+use test_support::{angle, view};
 
 /// A cup with an analytic ball, smooth glass and a hole: something of each kind.
 fn still_life() -> Scene {

@@ -16,7 +16,7 @@
 
 mod common;
 
-use common::{furnace, object, view};
+use common::{furnace, object};
 use glam::DVec3;
 use reference::{EnvironmentLookup, Estimator, Level, Paths, Request, render};
 use scenes::environment::{LatLong, Map, Repair};
@@ -26,6 +26,7 @@ use scenes::scene::Normals;
 use scenes::{Environment, LayerName, Layers, Projection, Rendering, Scene, Shape};
 use std::path::PathBuf;
 use std::sync::Arc;
+use test_support::view;
 
 const SIZE_PX: usize = 256;
 static ALL: [bool; SIZE_PX * SIZE_PX] = [false; SIZE_PX * SIZE_PX];

@@ -3,13 +3,14 @@
 
 mod common;
 
-use common::{cube, cup, furnace, icosphere, object, view};
+use common::{cube, cup, furnace, icosphere, object};
 use glam::{DAffine3, DVec3};
 use reference::{Estimator, Level, Request, render};
 use scenes::scene::Normals;
 use scenes::{
     Eta, LayerName, Medium, MediumId, Object, Projection, Rendering, Scene, Shape, Surface,
 };
+use test_support::view;
 
 fn body(shape: Shape, medium: u16, priority: i32) -> Object {
     let mut object = object(shape, medium, Normals::Flat);

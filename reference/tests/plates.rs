@@ -11,7 +11,8 @@ use glam::{DAffine3, DVec2, DVec3};
 use reference::interface::fresnel;
 use scenes::scene::Normals;
 use scenes::{Environment, Scene, Shape};
-use shots::{angle, gather, shoot, two_halves};
+use shots::{gather, shoot, two_halves};
+use test_support::angle;
 
 fn plates(count: u32, eta: f64) -> Scene {
     let plate = |i: u32| {

@@ -7,12 +7,13 @@
 mod common;
 mod shots;
 
-use common::{cup, furnace, icosphere, object, view};
+use common::{cup, furnace, icosphere, object};
 use glam::{DAffine3, DVec3};
 use reference::{Estimator, Level, Paths, Request, render};
 use scenes::scene::Normals;
 use scenes::{Camera, LayerName, Projection, Scene, Shape};
 use shots::two_halves;
+use test_support::view;
 
 fn close(found: f64, expected: f64, within: f64) {
     assert!((found - expected).abs() <= within, "{found} is not {expected} within {within}");

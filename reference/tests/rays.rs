@@ -7,24 +7,7 @@ use common::meshes;
 use glam::DVec3;
 use reference::{Hit, Instructions, Triangles};
 use scenes::{Mesh, Ray};
-
-/// Small, fast, and good enough to aim with.
-struct Dice(u64);
-
-impl Dice {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963);
-        ((self.0 >> 33) as f64) / f64::from(1_u32 << 31)
-    }
-
-    fn pick(&mut self, count: usize) -> usize {
-        (self.unit() * count as f64) as usize
-    }
-
-    fn point(&mut self) -> DVec3 {
-        DVec3::new(self.unit(), self.unit(), self.unit()) * 2.0 - 1.0
-    }
-}
+use test_support::Dice;
 
 /// A ray at a vertex, an edge or the inside of a triangle; some along axes,
 /// some from far away, some that start on the surface.
@@ -52,7 +35,7 @@ fn corners_of(mesh: &Mesh) -> Vec<[DVec3; 3]> {
 
 #[test]
 fn every_set_of_instructions_answers_with_the_same_bits() {
-    let mut dice = Dice(3);
+    let mut dice = Dice::new(3);
     let (mut rays, mut hits) = (0, 0);
     for (name, mesh) in meshes() {
         let corners = corners_of(&mesh);
@@ -80,7 +63,7 @@ fn every_set_of_instructions_answers_with_the_same_bits() {
 /// Boxes only prune: the tree finds what each triangle on its own says.
 #[test]
 fn the_tree_loses_no_crossing() {
-    let mut dice = Dice(5);
+    let mut dice = Dice::new(5);
     for (name, mesh) in meshes() {
         let corners = corners_of(&mesh);
         let corners = &corners[..corners.len().min(400)];

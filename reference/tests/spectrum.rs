@@ -3,13 +3,14 @@
 
 mod common;
 
-use common::{cup, furnace, object, view};
+use common::{cup, furnace, object};
 use glam::DVec3;
 use reference::{Error, Level, Request, Spectrum, render};
 use scenes::environment::{Cube, LatLong, Map};
 use scenes::scene::Normals;
 use scenes::{Dispersion, Environment, Eta, LayerName, Medium, Scene, Shape};
 use std::sync::Arc;
+use test_support::view;
 
 /// Cauchy's law through 1.6 at the d line.
 fn dispersive(b_um2: f64) -> Medium {

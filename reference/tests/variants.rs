@@ -3,13 +3,14 @@
 
 mod common;
 
-use common::{cup, furnace, icosphere, object, torus, view};
+use common::{cup, furnace, icosphere, object, torus};
 use glam::{DAffine3, DVec3};
 use reference::{Keep, Level, Request, plan, render};
 use scenes::environment::{LatLong, Map};
 use scenes::scene::Normals;
 use scenes::{Cube, Environment, LayerName, Medium, MediumId, Scene, Shape, Surface};
 use std::sync::Arc;
+use test_support::view;
 
 const ALL: [LayerName; 11] = [
     LayerName::Radiance,

@@ -6,7 +6,7 @@ use compare::metric::{
     Candidate, Exposures, Judgement, Metric, Reference, Selection, display, error, exit_angle,
     flip, judge, pu21, relative, ssim, stack,
 };
-use compare::results::Status;
+use compare::results::Validity;
 use compare::support::sum;
 use scenes::image::{Alpha, Picture as Image, open};
 use scenes::{LayerName, Layers};
@@ -244,7 +244,7 @@ fn a_candidate_with_nan_or_infinity_has_no_number() {
         let judgement = judged(&reference, &candidate);
         assert!(judgement.measurements.len() > 10);
         for found in &judgement.measurements {
-            assert_eq!((found.status, found.value), (Status::Invalid, None), "{case} {found:?}");
+            assert_eq!((found.status, found.value), (Validity::Invalid, None), "{case} {found:?}");
             assert!(found.reason.contains("3 of 2304 values are NaN or infinite"), "{found:?}");
             assert!(found.reason.contains("pixel (7, 5)"), "{found:?}");
         }
@@ -266,7 +266,7 @@ fn equal_images_are_not_computed_and_have_no_infinite_psnr() {
     for case in ["identical", "black_both"] {
         let [reference, candidate] = degenerate(case);
         for found in judged(&reference, &candidate).measurements {
-            assert_eq!(found.status, Status::Identical, "{case} {found:?}");
+            assert_eq!(found.status, Validity::Identical, "{case} {found:?}");
             let expected = match found.metric.as_str() {
                 "ssim_reinhard_srgb8" => Some(1.0),
                 "psnr_reinhard_srgb8" | "pu21_psnr_x100" => None,
@@ -282,7 +282,7 @@ fn a_black_reference_has_flip_only_at_pinned_exposures() {
     let [reference, candidate] = degenerate("black_ref");
     let judgement = judged(&reference, &candidate);
     let flip = judgement.measurements.iter().find(|m| m.metric == "flip_hdr").unwrap();
-    assert_eq!((flip.status, flip.value), (Status::Undefined, None));
+    assert_eq!((flip.status, flip.value), (Validity::Undefined, None));
     close("relmse", value(&judgement, "relmse_e1e-2"), &Value::from(27.996902633458376), 1e-12);
 
     let exposures = Some(Exposures { start: -2.0, stop: 2.0, count: 5 });
@@ -303,7 +303,11 @@ fn negative_huge_and_tiny_images_have_the_values_numpy_gives_them() {
         close(case, value(&judgement, "relmse_e1e-2"), &values["numpy_relmse_1e-2"], 1e-12);
         let ssim = judgement.measurements.iter().find(|m| m.metric.starts_with("ssim")).unwrap();
         let too_small = case == "one_pixel" || case == "tiny_5x5";
-        assert_eq!(ssim.status, if too_small { Status::Undefined } else { Status::Ok }, "{case}");
+        assert_eq!(
+            ssim.status,
+            if too_small { Validity::Undefined } else { Validity::Ok },
+            "{case}"
+        );
     }
 }
 

@@ -6,8 +6,9 @@
 use glam::{DAffine3, DVec3};
 use reference::{Estimator, Level, Request, render};
 use scenes::environment::{Environment, Map};
-use scenes::{Camera, Cube, LayerName, Projection, Scene, Shape, View};
+use scenes::{Cube, LayerName, Scene, Shape};
 use std::sync::Arc;
+use test_support::{angle, ray, view};
 
 fn scene(objects: &str) -> Scene {
     let text = format!(
@@ -27,17 +28,6 @@ fn ball(eta: f64) -> Scene {
     scene(&solid("{ sphere = { radius_m = 1.0 } }", eta))
 }
 
-fn aim(scene: &mut Scene, origin: DVec3, direction: DVec3) {
-    let up = if direction.y.abs() > 0.9 * direction.length() { DVec3::X } else { DVec3::Y };
-    scene.camera = Camera {
-        eye: origin,
-        target: origin + direction,
-        up,
-        projection: Projection::Orthographic { height_m: 1e-9 },
-        resolution_px: [1, 1],
-    };
-}
-
 struct Chain {
     exit: DVec3,
     position: DVec3,
@@ -46,10 +36,9 @@ struct Chain {
 
 /// The chain that always transmits, of one ray.
 fn chain(scene: &mut Scene, origin: DVec3, direction: DVec3) -> Chain {
-    aim(scene, origin, direction);
-    let layers = vec![LayerName::Exit, LayerName::ExitPosition, LayerName::Events];
-    let view = View { resolution_px: [1, 1], positions_per_axis: 1, frame: 0, layers };
-    let rendering = render(scene, &Request::new(view, Level::R0)).unwrap();
+    scene.camera = ray(origin, direction);
+    let layers = [LayerName::Exit, LayerName::ExitPosition, LayerName::Events];
+    let rendering = render(scene, &Request::new(view(1, 1, &layers), Level::R0)).unwrap();
     let vector = |name| DVec3::from_slice(&rendering.layers.get(&name).unwrap().data);
     Chain {
         exit: vector(LayerName::Exit),
@@ -60,20 +49,10 @@ fn chain(scene: &mut Scene, origin: DVec3, direction: DVec3) -> Chain {
 
 /// Radiance of one ray, the whole tree down to a weight of 1e-14.
 fn radiance(scene: &mut Scene, origin: DVec3, direction: DVec3) -> f64 {
-    aim(scene, origin, direction);
-    let view = View {
-        resolution_px: [1, 1],
-        positions_per_axis: 1,
-        frame: 0,
-        layers: vec![LayerName::Radiance],
-    };
-    let mut request = Request::new(view, Level::R1);
+    scene.camera = ray(origin, direction);
+    let mut request = Request::new(view(1, 1, &[LayerName::Radiance]), Level::R1);
     request.estimator = Estimator::Tree { cut: 1e-14 };
     render(scene, &request).unwrap().layers.get(&LayerName::Radiance).unwrap().data[0]
-}
-
-fn angle(a: DVec3, b: DVec3) -> f64 {
-    a.cross(b).length().atan2(a.dot(b))
 }
 
 /// Light only from where z > 0.
@@ -237,12 +216,7 @@ fn light_is_reversible() {
 fn a_scene_scaled_by_a_power_of_two_is_the_same_image_bit_by_bit() {
     let original = scenes::builtin("ice-cube").unwrap();
     let image = |scene: &Scene| {
-        let view = View {
-            resolution_px: [24, 24],
-            positions_per_axis: 1,
-            frame: 0,
-            layers: vec![LayerName::Radiance, LayerName::Exit],
-        };
+        let view = view(24, 1, &[LayerName::Radiance, LayerName::Exit]);
         let layers = render(scene, &Request::new(view, Level::R1)).unwrap().layers;
         layers.list.iter().flat_map(|l| l.data.iter().map(|v| v.to_bits())).collect::<Vec<u64>>()
     };

@@ -7,8 +7,9 @@
 use glam::DVec3;
 use reference::{Estimator, Level, Paths, Request};
 use scenes::environment::{LatLong, Map};
-use scenes::{Camera, Cube, Environment, LayerName, Projection, Scene, View};
+use scenes::{Camera, Cube, Environment, LayerName, Scene};
 use std::sync::Arc;
+use test_support::{ray, view};
 
 /// Brightest radiance of the environment and of every light in these scenes.
 const BRIGHTEST: f64 = 10.0;
@@ -29,10 +30,8 @@ fn smooth() -> Environment {
 /// The camera's ray through a place of the image, and nothing around it.
 fn one_ray(camera: &Camera, at: [f64; 2]) -> Camera {
     let [width, height] = camera.resolution_px.map(f64::from);
-    let ray = camera.ray_through(glam::DVec2::new(at[0] * width, at[1] * height));
-    let projection = Projection::Orthographic { height_m: 1e-12 };
-    let target = ray.origin + ray.direction;
-    Camera { eye: ray.origin, target, projection, resolution_px: [1, 1], ..*camera }
+    let through = camera.ray_through(glam::DVec2::new(at[0] * width, at[1] * height));
+    ray(through.origin, through.direction)
 }
 
 fn radiance(scene: &Scene, estimator: Estimator) -> (DVec3, DVec3) {
@@ -40,9 +39,8 @@ fn radiance(scene: &Scene, estimator: Estimator) -> (DVec3, DVec3) {
         Estimator::Tree { .. } => LayerName::Truncated,
         Estimator::Paths(_) => LayerName::Variance,
     };
-    let layers = vec![LayerName::Radiance, spread.clone()];
-    let view = View { resolution_px: [1, 1], positions_per_axis: 1, frame: 0, layers };
-    let request = Request { estimator, ..Request::new(view, Level::R2) };
+    let layers = [LayerName::Radiance, spread.clone()];
+    let request = Request { estimator, ..Request::new(view(1, 1, &layers), Level::R2) };
     let rendering = reference::render(scene, &request).unwrap();
     let data = |name| &rendering.layers.get(&name).unwrap().data;
     let spread = data(spread);

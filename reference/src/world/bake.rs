@@ -94,7 +94,7 @@ impl World {
             self.add_shape(opaque, &shape, object.normals, triangles);
             return Ok(());
         };
-        must_be_body(&object.name, &shape)?;
+        must_be_body(&object.name, shape.mesh())?;
         let host = self.class(Class { medium, priority });
         let solid = Body { bump: object.bump, ..body(index, Role::Solid(host), place) };
         self.add_shape(solid, &shape, object.normals, triangles);

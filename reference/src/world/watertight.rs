@@ -15,23 +15,7 @@ use glam::DVec3;
 use obvhs::ray::{Ray, RayHit};
 use scenes::scene::Normals;
 use scenes::{Mesh, Shape};
-
-/// Small, fast, and good enough to aim with.
-struct Dice(u64);
-
-impl Dice {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963);
-        ((self.0 >> 33) as f64) / f64::from(1_u32 << 31)
-    }
-
-    fn direction(&mut self) -> DVec3 {
-        let z = 2.0 * self.unit() - 1.0;
-        let turn = self.unit() * std::f64::consts::TAU;
-        let r = (1.0 - z * z).sqrt();
-        DVec3::new(r * turn.cos(), r * turn.sin(), z)
-    }
-}
+use test_support::Dice;
 
 /// A vertex, or a point on an edge, of a random triangle.
 fn target(mesh: &Mesh, dice: &mut Dice) -> DVec3 {
@@ -65,7 +49,7 @@ const RAYS: usize = 170_000;
 fn a_million_lines_at_edges_and_vertices_enter_as_often_as_they_leave() {
     let mut crossings: Vec<Crossing> = Vec::new();
     let mut stack = Stack::default();
-    let (mut dice, mut lines, mut ties) = (Dice(1), 0_u64, 0_u64);
+    let (mut dice, mut lines, mut ties) = (Dice::new(1), 0_u64, 0_u64);
     for (name, mesh) in meshes() {
         let world = world_of(&mesh);
         for _ in 0..RAYS {
@@ -112,7 +96,7 @@ fn a_common_triangle_test_leaks_at_edges() {
         params,
         &mut std::time::Duration::default(),
     );
-    let (mut dice, mut leaks) = (Dice(1), 0);
+    let (mut dice, mut leaks) = (Dice::new(1), 0);
     for _ in 0..100_000 {
         let from = dice.direction() * 0.3;
         let direction = (target(&mesh, &mut dice) - from).normalize();

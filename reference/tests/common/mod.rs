@@ -4,8 +4,8 @@
 
 use glam::DVec3;
 use scenes::scene::{Normals, Sequence};
-use scenes::{Camera, Eta, LayerName, Medium, MediumId, Mesh, Object, Projection};
-use scenes::{Scene, Shape, View};
+use scenes::{Camera, MediumId, Mesh, Object, Projection};
+use scenes::{Scene, Shape};
 use std::collections::HashMap;
 
 /// A unit sphere from an icosahedron whose triangles are divided `levels` times.
@@ -164,7 +164,6 @@ pub fn object(shape: Shape, medium: u16, normals: Normals) -> Object {
 /// Objects in a uniform environment of radiance 1, media glass (index 1) and
 /// vacuum (index 0).
 pub fn furnace(objects: Vec<Object>, eta: f64) -> Scene {
-    let glass = Medium::plain("glass", Eta::try_from(eta).expect("a valid index"));
     let camera = Camera {
         eye: DVec3::new(1.3, 1.1, 2.9),
         target: DVec3::ZERO,
@@ -174,11 +173,6 @@ pub fn furnace(objects: Vec<Object>, eta: f64) -> Scene {
     };
     Scene {
         sequence: Sequence { frames: 1, seconds_per_frame: 0.04 },
-        ..Scene::in_white_light("furnace", camera, vec![Medium::vacuum(), glass], objects)
+        ..test_support::scene(objects, eta, camera)
     }
-}
-
-/// A view of `size` x `size` pixels.
-pub fn view(size: u32, positions_per_axis: u32, layers: &[LayerName]) -> View {
-    View { resolution_px: [size, size], positions_per_axis, frame: 0, layers: layers.to_vec() }
 }

@@ -2,10 +2,10 @@
 #![allow(dead_code, reason = "each test file uses its part")]
 #![allow(unreachable_pub, reason = "shared by test files")]
 
-use crate::common::view;
 use glam::DVec3;
 use reference::{Estimator, Level, Request, render};
-use scenes::{Camera, Environment, LayerName, Projection, Rendering, Scene};
+use scenes::{Environment, LayerName, Rendering, Scene};
+use test_support::view;
 
 /// What the primary chain of a ray did.
 #[derive(Clone, Copy, Debug)]
@@ -21,14 +21,7 @@ pub struct Shot {
 }
 
 fn aimed(scene: &Scene, origin: DVec3, direction: DVec3) -> (Scene, DVec3) {
-    let up = if direction.cross(DVec3::Y).length() < 0.1 { DVec3::X } else { DVec3::Y };
-    let camera = Camera {
-        eye: origin,
-        target: origin + direction,
-        up,
-        projection: Projection::Orthographic { height_m: 1e-300 },
-        resolution_px: [1, 1],
-    };
+    let camera = test_support::ray(origin, direction);
     (Scene { camera, ..scene.clone() }, camera.basis().forward)
 }
 
@@ -89,9 +82,4 @@ pub fn two_halves(below: f64, above: f64) -> Environment {
     let texels = (0..256 * 128).map(|i| [texel(i % 256) as f32; 3]).collect();
     let map = LatLong { size_px: [256, 128], texels };
     Environment::Map(Arc::new(Map::from_lat_long("halves", map, 0.0, Some(64), Repair::default())))
-}
-
-/// Angle between two unit vectors, exact also when it is small.
-pub fn angle(a: DVec3, b: DVec3) -> f64 {
-    a.cross(b).length().atan2(a.dot(b))
 }

@@ -112,7 +112,7 @@ fn what_cannot_be_rendered_is_refused_with_a_way_out() {
 
 fn warnings(edit: impl FnOnce(&mut Value)) -> Vec<String> {
     let folder = tempfile::tempdir().unwrap();
-    load(&written(folder.path(), edit)).unwrap().warnings
+    load(&written(folder.path(), edit), crate::format::default_sky).unwrap().warnings
 }
 
 #[test]
@@ -163,7 +163,7 @@ fn quantised_meshes_are_read() {
         vec![Object::solid("cube", Shape::Mesh(crate::generate::cube(1)), crate::MediumId(1))],
     );
     let main = write(&sent, Format::Gltf, &folder.path().join("out")).unwrap().file;
-    let plain = load(&main).unwrap();
+    let plain = load(&main, crate::format::default_sky).unwrap();
     let mut root: Value = serde_json::from_str(&std::fs::read_to_string(&main).unwrap()).unwrap();
     let mut bytes = std::fs::read(main.with_file_name("scene.bin")).unwrap();
     let start = bytes.len();
@@ -194,7 +194,7 @@ fn quantised_meshes_are_read() {
             root["extensionsRequired"] = json!(["KHR_mesh_quantization"]);
         }
         std::fs::write(&main, root.to_string()).unwrap();
-        let back = load(&main).unwrap();
+        let back = load(&main, crate::format::default_sky).unwrap();
         assert_eq!(back.objects[0].shape, plain.objects[0].shape);
         assert_eq!(back.warnings, [""; 0]);
     }
@@ -227,7 +227,7 @@ fn lights_and_bright_emission_are_read() {
         let in_scene = root["scenes"][0]["nodes"].as_array_mut().unwrap();
         in_scene.extend((first..first + 3).map(|i| json!(i)));
     });
-    let scene = load(&path).unwrap();
+    let scene = load(&path, crate::format::default_sky).unwrap();
     let radiance = Paint::Constant(DVec3::new(10.0, 5.0, 0.0));
     assert_eq!(scene.objects[0].surface, Surface::Unlit { radiance });
     let position_m = DVec3::new(1.0, 2.0, 3.0);
@@ -243,7 +243,7 @@ fn lights_and_bright_emission_are_read() {
 fn zero_normals_are_made_from_the_faces() {
     let folder = tempfile::tempdir().unwrap();
     let path = written(folder.path(), |_| ());
-    let whole = load(&path).unwrap();
+    let whole = load(&path, crate::format::default_sky).unwrap();
     let root: Value = serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
     let normal = &root["meshes"][0]["primitives"][0]["attributes"]["NORMAL"];
     let accessor = &root["accessors"][usize::try_from(normal.as_u64().unwrap()).unwrap()];
@@ -254,7 +254,7 @@ fn zero_normals_are_made_from_the_faces() {
     let mut bytes = std::fs::read(&bin).unwrap();
     bytes[start..start + 12].fill(0);
     std::fs::write(&bin, bytes).unwrap();
-    let mended = load(&path).unwrap();
+    let mended = load(&path, crate::format::default_sky).unwrap();
     assert!(mended.warnings[0].contains("zero or not a number"), "{:?}", mended.warnings);
     let normals = |scene: &Scene| {
         let normals = scene.objects[0].shape.mesh().unwrap().normals.clone().unwrap();
@@ -272,7 +272,7 @@ fn opaque_materials_are_diffuse_or_glow() {
     let surface = |change: Value| {
         let folder = tempfile::tempdir().unwrap();
         let path = written(folder.path(), |root| root["materials"][0] = change);
-        load(&path).unwrap().objects[0].surface.clone()
+        load(&path, crate::format::default_sky).unwrap().objects[0].surface.clone()
     };
     use crate::{Surface, scene::Paint};
     let factors = json!({ "metallicFactor": 0.0, "baseColorFactor": [0.5, 0.25, 0.0, 1.0] });

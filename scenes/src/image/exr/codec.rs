@@ -3,7 +3,7 @@
 //!
 //! Source: "Technical Introduction to OpenEXR", openexr.com, "Data Compression".
 
-use super::blocks::{Block, samples};
+use super::block::{Block, samples};
 use super::header::{Channel, Part, Sample};
 use exr::compression::Compression;
 use exr::math::{RoundingMode, Vec2};

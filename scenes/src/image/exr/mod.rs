@@ -5,6 +5,7 @@
 //! blocks are found and weighed, codecs unpack them, and `place` puts samples
 //! where they belong.
 
+mod block;
 mod blocks;
 mod chroma;
 mod codec;

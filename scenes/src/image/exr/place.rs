@@ -1,7 +1,7 @@
 //! Samples to their pixels: every block is unpacked once, and each of its rows
 //! goes where data window and display window say.
 
-use super::blocks::{Block, samples};
+use super::block::{Block, samples};
 use super::chroma::Samples;
 use super::codec::Codec;
 use super::header::{Part, Sample, Window};

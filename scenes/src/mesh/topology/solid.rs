@@ -4,7 +4,7 @@ use super::edges::{edges, sides};
 use super::orient::consistent;
 use super::parts::{Part, inverted_part, parts};
 use super::report::signed_volume;
-use crate::{Mesh, Shape};
+use crate::Mesh;
 use std::collections::HashSet;
 
 /// Share of area times extent below which a volume is rounding and no volume.
@@ -105,14 +105,14 @@ pub struct NotABody {
     pub reason: NotSolid,
 }
 
-/// Holds a transparent object's shape to have an inside. A mesh without triangles
+/// Holds a transparent object's mesh, if it is one, to have an inside. A mesh without triangles
 /// has none and hides nothing; it passes.
 ///
 /// # Errors
 /// What is wrong with the mesh, and how to mend it.
-pub fn must_be_body(object: &str, shape: &Shape) -> Result<(), NotABody> {
-    match shape {
-        Shape::Mesh(mesh) if !mesh.triangles.is_empty() => {
+pub fn must_be_body(object: &str, mesh: Option<&Mesh>) -> Result<(), NotABody> {
+    match mesh {
+        Some(mesh) if !mesh.triangles.is_empty() => {
             solid(mesh).map_err(|reason| NotABody { object: object.to_owned(), reason })
         }
         _ => Ok(()),
