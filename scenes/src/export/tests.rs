@@ -147,7 +147,7 @@ fn balls_and_cylinders_are_tessellated_to_a_stated_error() {
         let [low, high] = shape.bounds();
         let sent = scene(shape);
         let written = write(&sent, Format::Gltf, &folder.path().join(index.to_string())).unwrap();
-        let back = crate::import::load(&written.file).unwrap();
+        let back = crate::import::load(&written.file, crate::format::default_sky).unwrap();
         let mesh = back.objects[0].shape.mesh().unwrap();
         assert_eq!(crate::topology::solid(mesh), Ok(()));
         let [l, h] = mesh.bounds();
@@ -189,7 +189,7 @@ fn the_round_trip_is_told() {
     let written = write(&sent, Format::Gltf, &folder.path().join("plain")).unwrap();
     let told = written.notes.last().unwrap();
     assert!(told.starts_with("read back, positions differ by up to 0.0e0 m"), "{told}");
-    let back = crate::import::load(&written.file).unwrap();
+    let back = crate::import::load(&written.file, crate::format::default_sky).unwrap();
     let off = (back.media[1].eta.get() - 1.52).abs();
     assert!(off > 0.0 && told.contains(&format!("indices (R, G, B) by {off:.1e}")), "{told}");
     let off = (back.media[1].absorption_per_m - sent.media[1].absorption_per_m).abs();
@@ -200,7 +200,7 @@ fn the_round_trip_is_told() {
         c_um2: [0.006_000_698_67, 0.020_017_914_4, 103.560_653],
     };
     let written = write(&sent, Format::Gltf, &folder.path().join("bk7")).unwrap();
-    let back = crate::import::load(&written.file).unwrap();
+    let back = crate::import::load(&written.file, crate::format::default_sky).unwrap();
     let off = crate::medium::RGB_WAVELENGTH_UM
         .map(|um| (back.media[1].eta_at(um) - sent.media[1].eta_at(um)).abs());
     let off = off.into_iter().fold(0.0, f64::max);
@@ -266,7 +266,7 @@ fn gltf_has_opaque_surfaces_and_lights() {
         assert!(error.contains("--to gltf"), "{error}");
     }
     let written = write(&sent, Format::Gltf, &folder.path().join("out")).unwrap();
-    let back = crate::import::load(&written.file).unwrap();
+    let back = crate::import::load(&written.file, crate::format::default_sky).unwrap();
     assert_eq!([&back.objects[1].surface, &back.objects[2].surface], [&lambert, &lamp]);
     assert_eq!(back.lights[0], sent.lights[0]);
     let Light::Directional { direction, irradiance } = back.lights[1] else { panic!() };

@@ -3,7 +3,7 @@
 use crate::Error;
 use crate::cli::output::Output;
 use crate::cli::status::Status;
-use crate::support::files::replace;
+use crate::support::files::{FileError, replace};
 use scenes::import;
 use scenes::obj::{self, Model};
 use scenes::topology::{Repaired, Survey, repair, survey};
@@ -148,8 +148,8 @@ fn mend<'a>(args: &Args, model: &Model, to: &'a Path) -> Result<Mended<'a>, Erro
     let longest_hole_m = args.longest_hole.unwrap_or((high - low).length());
     let (mended, done) = repair(&model.mesh, longest_hole_m);
     replace(to, |partial| {
-        let file = std::fs::File::create(partial).map_err(Error::file(to, "cannot be written"))?;
-        obj::write(&mended, BufWriter::new(file)).map_err(Error::file(to, "cannot be written"))
+        let file = std::fs::File::create(partial).map_err(FileError::unwritten(to))?;
+        obj::write(&mended, BufWriter::new(file)).map_err(FileError::unwritten(to))
     })?;
     let Repaired { doubles_dropped, turned, holes_closed, triangles_added, .. } = done;
     let flaw = survey(&mended).flaw.as_ref().map(ToString::to_string);
