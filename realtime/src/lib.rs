@@ -23,4 +23,4 @@ pub use gpu::{AdapterInfo, Gpu, adapters};
 pub use methods::{METHODS, Method};
 pub use plan::plan;
 pub use render::render;
-pub use request::{Filter, Request, Timing};
+pub use request::{Filter, Keep, Request, Timing};

@@ -16,12 +16,22 @@ pub struct Request {
     pub filter: Filter,
     /// How long to measure, if at all.
     pub timing: Option<Timing>,
-    /// Leave out what the scene does not need. False keeps, with neutral input, the
-    /// surface buffers that nobody reads, stored geometric normals, absorption,
-    /// traces of red and blue, refraction at equal indices, bodies and pixels
-    /// outside the image: to see that the image is the same and what is saved.
-    /// Cracks, air, bumps and surroundings that a scene does not have stay out.
-    pub elide: bool,
+    /// Whether what the scene does not need is left out.
+    pub keep: Keep,
+}
+
+/// What of a frame is kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Keep {
+    /// What the scene needs. Where the bodies have the index of what is around
+    /// them, light goes straight on and the method's own shader does not run.
+    Needed,
+    /// Also, with neutral input, the surface buffers that nobody reads, stored
+    /// geometric normals, absorption, traces of red and blue, refraction at equal
+    /// indices, bodies and pixels outside the image: to see that the image is the
+    /// same and what is saved. Cracks, air, bumps and surroundings that a scene
+    /// does not have stay out.
+    Everything,
 }
 
 /// How the environment is looked up.

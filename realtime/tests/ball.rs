@@ -4,7 +4,7 @@
 #![allow(clippy::unwrap_used, reason = "a failing test may panic")]
 
 use glam::{DVec2, DVec3};
-use realtime::{Filter, Gpu, Request, render};
+use realtime::{Filter, Gpu, Keep, Request, render};
 use scenes::{Camera, Eta, LayerName, Medium, MediumId, Object, Projection};
 use scenes::{Scene, Shape, View};
 
@@ -36,7 +36,7 @@ fn mean_angle_deg(gpu: &Gpu, eta: f64, method: &str, parameters: &[(&str, &str)]
         parameters: parameters.iter().map(|(n, v)| ((*n).to_owned(), (*v).to_owned())).collect(),
         filter: Filter::Manual,
         timing: None,
-        elide: true,
+        keep: Keep::Needed,
     };
     let rendering = render(gpu, &scene, &request).unwrap();
     let exit = rendering.layers.get(&LayerName::Exit).unwrap();

@@ -5,7 +5,7 @@
 #![allow(clippy::unwrap_used, reason = "a failing test may panic")]
 
 use glam::{DAffine3, DVec2, DVec3};
-use realtime::{Filter, Gpu, Request, render};
+use realtime::{Filter, Gpu, Keep, Request, render};
 use scenes::{Camera, Eta, LayerName, Medium, MediumId, Object, Projection};
 use scenes::{Scene, Shape, Surface, View};
 
@@ -95,7 +95,7 @@ fn errors_seen(
         parameters: parameters.iter().map(|(n, v)| ((*n).into(), (*v).into())).collect(),
         filter: Filter::Manual,
         timing: None,
-        elide: true,
+        keep: Keep::Needed,
     };
     let rendering = render(gpu, scene, &request).unwrap();
     let layer = rendering.layers.get(&LayerName::Exit).unwrap();

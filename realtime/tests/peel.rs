@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a failing test may panic")]
 
 use glam::{DAffine3, DVec3};
-use realtime::{Filter, Gpu, Request, Timing, plan, render};
+use realtime::{Filter, Gpu, Keep, Request, Timing, plan, render};
 use scenes::layer::flag;
 use scenes::{
     Camera, Eta, LayerName, Medium, MediumId, Object, Projection, Rendering, Scene, Shape, Surface,
@@ -46,7 +46,7 @@ fn request(scene: &Scene, parameters: &[(&str, &str)], layers: Vec<LayerName>) -
         parameters: parameters.collect(),
         filter: Filter::Manual,
         timing: None,
-        elide: true,
+        keep: Keep::Needed,
     }
 }
 

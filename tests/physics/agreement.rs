@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used, reason = "a failing test may panic")]
 
 use glam::DVec3;
+use realtime::Keep;
 use reference::Level;
 use scenes::{Environment, Eta, LayerName, Scene, View};
 
@@ -17,16 +18,23 @@ fn vectors(layers: &scenes::Layers, name: &LayerName) -> Vec<DVec3> {
     layers.get(name).unwrap().data.chunks_exact(3).map(DVec3::from_slice).collect()
 }
 
+/// With everything kept: the method's own shader runs, whatever the indices.
 fn approximate(gpu: &realtime::Gpu, scene: &Scene, method: &str, layer: &LayerName) -> Vec<DVec3> {
+    let mut view = view(layer.clone());
+    view.layers.push(LayerName::Events);
     let request = realtime::Request {
-        view: view(layer.clone()),
+        view,
         method: method.to_owned(),
         parameters: [].into(),
         filter: realtime::Filter::Manual,
         timing: None,
-        elide: true,
+        keep: Keep::Everything,
     };
-    vectors(&realtime::render(gpu, scene, &request).unwrap().layers, layer)
+    let rendering = realtime::render(gpu, scene, &request).unwrap();
+    let events = &rendering.layers.get(&LayerName::Events).unwrap().data;
+    let bends = events.iter().any(|events| *events > 0.0);
+    assert_eq!(bends, method != "undeviated", "another shader than that of {method} ran");
+    vectors(&rendering.layers, layer)
 }
 
 fn exact(scene: &Scene, layer: &LayerName) -> Vec<DVec3> {

@@ -138,7 +138,7 @@ fn drawn(gpu: &realtime::Gpu, scene: &Scene, method: &str, words: &[(&str, &str)
         parameters: owned.collect(),
         filter: realtime::Filter::Manual,
         timing: None,
-        elide: true,
+        keep: realtime::Keep::Needed,
     };
     let rendering = realtime::render(gpu, scene, &request).unwrap();
     let exits = &rendering.layers.get(&LayerName::Exit).unwrap().data;

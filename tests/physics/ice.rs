@@ -28,7 +28,7 @@ fn drawn(gpu: &realtime::Gpu, scene: &Scene, parameters: &[(&str, &str)]) -> Vec
         parameters: owned.collect(),
         filter: realtime::Filter::Manual,
         timing: None,
-        elide: true,
+        keep: realtime::Keep::Needed,
     };
     mask(&realtime::render(gpu, scene, &request).unwrap().layers)
 }

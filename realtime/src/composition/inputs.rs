@@ -5,7 +5,7 @@ use crate::drawn::geometry::Geometry;
 use crate::drawn::projection::{in_view, projected_px};
 use crate::drawn::uniforms::Body;
 use crate::methods::{Method, Settings};
-use crate::request::{Filter, Request};
+use crate::request::{Filter, Keep, Request};
 use crate::wgsl::Piece;
 use glam::DVec2;
 use scenes::{Camera, Environment, LayerName, Scene};
@@ -52,17 +52,22 @@ impl Order<'_> {
         head
     }
 
+    /// Nothing that could be left out is.
+    pub(crate) fn keeps_all(&self) -> bool {
+        self.request.keep == Keep::Everything
+    }
+
     /// No body's bounds reach into the image, and nobody asks for its buffers.
     pub(crate) fn is_off_screen(&self) -> bool {
         let asks = self.request.view.layers.iter().any(|l| matches!(l, LayerName::Buffer(_)));
         let shown = || self.geometry.outlines.iter().any(|corners| in_view(self.camera, corners));
-        self.request.elide && !asks && !shown()
+        !self.keeps_all() && !asks && !shown()
     }
 
     /// The rectangle of pixels around the bodies' bounds, with a pixel to spare.
     /// None if it is the whole image, or a corner lies behind the eye.
     pub(crate) fn within_px(&self) -> Option<[u32; 4]> {
-        if !self.request.elide {
+        if self.keeps_all() {
             return None;
         }
         let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
@@ -87,7 +92,7 @@ impl Order<'_> {
         let geometry = self.geometry;
         let bends_anyway = self.method.id.ends_with("-vertex")
             || self.settings.word_if_any("fresnel") == Some("eq4");
-        self.request.elide
+        !self.keeps_all()
             && !bends_anyway
             && geometry.media.iter().all(same)
             && !geometry.absorbs

@@ -67,7 +67,7 @@ impl Composition {
             let inside = interior.as_ref().is_some_and(|interior| interior.reads(target.name));
             shade.uses(&["shade"], target.name) || inside || asked(order.request, target.name)
         };
-        let keep_all = !order.request.elide;
+        let keep_all = order.keeps_all();
         let wanted = |target: &Target| keep_all || wanted(target);
         let front: Vec<Target> = FRONT.into_iter().filter(wanted).collect();
         let back: Vec<Target> = BACK.into_iter().filter(wanted).collect();
@@ -144,7 +144,7 @@ impl Composition {
 
 fn shade_pieces(order: &Order<'_>) -> Result<Vec<Piece>, Error> {
     let Order { settings, geometry, .. } = *order;
-    let (drawn, keep_all) = (order.draws_backdrop(), !order.request.elide);
+    let (drawn, keep_all) = (order.draws_backdrop(), order.keeps_all());
     let mut pieces =
         vec![piece!("core/frame.wgsl"), camera_piece(order.camera), piece!("core/interface.wgsl")];
     pieces.extend([piece!("core/cube.wgsl"), order.environment_piece(drawn)]);

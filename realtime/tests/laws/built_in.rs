@@ -19,11 +19,11 @@ fn every_method_executes_its_plan_and_leaving_out_changes_no_image() {
             let layers = [LayerName::Radiance, LayerName::Exit, LayerName::Flags];
             let mut lean = request(&scene, method.id, &layers);
             lean.timing = Some(Timing { warm_up: 0, seconds: 0.0, max_frames: 1 });
-            let full = Request { elide: false, ..lean.clone() };
+            let full = Request { keep: Keep::Everything, ..lean.clone() };
             let [lean, full] = [lean, full].map(|request| {
                 let plan = realtime::plan(&scene, &request).unwrap();
                 let rendering = realtime::render(&GPU, &scene, &request).unwrap();
-                let what = (builtin.name, method.id, request.elide);
+                let what = (builtin.name, method.id, request.keep);
                 assert!(kept(&plan, &rendering), "{what:?}: {:?}", plan.passes);
                 rendering
             });

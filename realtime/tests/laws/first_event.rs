@@ -15,9 +15,13 @@ fn shapes() -> Vec<Shape> {
     ]
 }
 
+/// With everything kept: the method's own shader runs, whatever the index.
 fn exits(scene: &Scene, method: &str, layer: LayerName) -> Vec<DVec3> {
-    let request = request(scene, method, std::slice::from_ref(&layer));
-    vectors(&realtime::render(&GPU, scene, &request).unwrap().layers, layer)
+    let mut request = request(scene, method, &[layer.clone(), LayerName::Events]);
+    request.keep = Keep::Everything;
+    let rendering = realtime::render(&GPU, scene, &request).unwrap();
+    assert!(bends(&rendering), "another shader than that of {method} ran");
+    vectors(&rendering.layers, layer)
 }
 
 /// An index of 1 bends nothing, though every pass runs.

@@ -12,11 +12,11 @@ fn bodies() -> Vec<Scene> {
     built_in.into_iter().chain([scene_of(box_shape, 1.5, eye)]).collect()
 }
 
-fn rendered(scene: &Scene, method: &str, elide: bool) -> Rendering {
-    let layers = [LayerName::Radiance, LayerName::Exit, LayerName::Flags];
+fn rendered(scene: &Scene, method: &str, keep: Keep) -> Rendering {
+    let layers = [LayerName::Radiance, LayerName::Exit, LayerName::Flags, LayerName::Events];
     let mut request = request(scene, method, &layers);
     request.view.resolution_px = [64, 64];
-    request.elide = elide;
+    request.keep = keep;
     realtime::render(&GPU, scene, &request).unwrap()
 }
 
@@ -37,8 +37,10 @@ pub(crate) fn differing(a: &Rendering, b: &Rendering) -> f64 {
 fn the_image_is_the_same_with_and_without() {
     for scene in bodies() {
         for method in METHODS {
-            let (with, without) =
-                (rendered(&scene, method.id, true), rendered(&scene, method.id, false));
+            let (with, without) = (
+                rendered(&scene, method.id, Keep::Needed),
+                rendered(&scene, method.id, Keep::Everything),
+            );
             let share = differing(&with, &without);
             assert!(share <= 1e-4, "{} {}: {share}", scene.name, method.id);
             // And something was left out.
@@ -48,8 +50,10 @@ fn the_image_is_the_same_with_and_without() {
     // The control: another index is another image.
     let mut other = bodies().remove(0);
     other.media[1] = Medium::plain("other", Eta::try_from(1.32).unwrap());
-    let (a, b) =
-        (rendered(&bodies()[0], "one-interface", true), rendered(&other, "one-interface", true));
+    let (a, b) = (
+        rendered(&bodies()[0], "one-interface", Keep::Needed),
+        rendered(&other, "one-interface", Keep::Needed),
+    );
     assert!(differing(&a, &b) > 0.01);
 }
 
@@ -60,8 +64,12 @@ fn bodies_of_the_same_index_bend_nothing() {
     for method in METHODS.iter().filter(|method| !bends_anyway(method.id)) {
         let mut scene = bodies().remove(0);
         scene.media[1] = Medium::plain("same", Eta::try_from(1.0).unwrap());
-        let (with, without) =
-            (rendered(&scene, method.id, true), rendered(&scene, method.id, false));
+        let (with, without) = (
+            rendered(&scene, method.id, Keep::Needed),
+            rendered(&scene, method.id, Keep::Everything),
+        );
+        let ran = [&with, &without].map(bends);
+        assert_eq!(ran, [false, method.id != "undeviated"], "{}", method.id);
         let passes = |r: &Rendering| r.passes.iter().map(|p| p.name.clone()).collect::<Vec<_>>();
         assert_eq!(passes(&with), ["front", "shade"], "{}", method.id);
         let share = differing(&with, &without);
@@ -81,7 +89,10 @@ fn bodies_outside_the_image_are_not_drawn() {
     for x_m in [0.0, 1.5, 3.0, 100.0] {
         scene.objects[0].world_from_object = DAffine3::from_translation(DVec3::X * x_m);
         for method in ["one-interface", "multi"] {
-            let (with, without) = (rendered(&scene, method, true), rendered(&scene, method, false));
+            let (with, without) = (
+                rendered(&scene, method, Keep::Needed),
+                rendered(&scene, method, Keep::Everything),
+            );
             assert!(differing(&with, &without) <= 1e-4, "{x_m} {method}");
             let drawn = with.passes.iter().any(|pass| pass.name == "front");
             assert_eq!(drawn, x_m < 2.0, "{x_m}");

@@ -12,11 +12,11 @@ mod plans;
 mod requests;
 
 use glam::{DAffine3, DVec3};
-use realtime::{Filter, Gpu, Request};
+use realtime::{Filter, Gpu, Keep, Request};
 use scenes::scene::{Normals, Object};
 use scenes::{
-    Camera, Environment, Eta, LayerName, Layers, Medium, MediumId, Projection, Scene, Shape,
-    Surface, View,
+    Camera, Environment, Eta, LayerName, Layers, Medium, MediumId, Projection, Rendering, Scene,
+    Shape, Surface, View,
 };
 use std::sync::{Arc, LazyLock};
 
@@ -56,7 +56,7 @@ fn request(scene: &Scene, method: &str, layers: &[LayerName]) -> Request {
         parameters: [].into(),
         filter: Filter::Manual,
         timing: None,
-        elide: true,
+        keep: Keep::Needed,
     }
 }
 
@@ -65,6 +65,13 @@ fn with(mut request: Request, parameters: &[(&str, &str)]) -> Request {
     let owned = parameters.iter().map(|(name, value)| ((*name).into(), (*value).into()));
     request.parameters = owned.collect();
     request
+}
+
+/// Light met interfaces: a method's own shader ran, and not the one that lets
+/// light go straight on. Needs the layer of events.
+fn bends(rendering: &Rendering) -> bool {
+    let events = &rendering.layers.get(&LayerName::Events).unwrap().data;
+    events.iter().any(|events| *events > 0.0)
 }
 
 /// Vectors of a layer, pixel by pixel.

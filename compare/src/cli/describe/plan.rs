@@ -50,8 +50,14 @@ pub(in crate::cli) fn run(args: &Args, output: Output) -> Result<Status, Error> 
         Some(method) => {
             let parameters = args.parameters.iter().cloned().collect();
             let (filter, method) = (realtime::Filter::Manual, method.clone());
-            let request =
-                realtime::Request { view, method, parameters, filter, timing: None, elide: true };
+            let request = realtime::Request {
+                view,
+                method,
+                parameters,
+                filter,
+                timing: None,
+                keep: realtime::Keep::Needed,
+            };
             (request.method.clone(), realtime::plan(&scene, &request)?)
         }
         None => {

@@ -7,7 +7,7 @@ use crate::cli::arguments::values::parameter;
 use crate::cli::arguments::view::{ImageArgs, ViewArgs};
 use crate::cli::output::Output;
 use crate::cli::status::Status;
-use realtime::{Filter, Request, Timing};
+use realtime::{Filter, Keep, Request, Timing};
 
 /// Render one approximation of a scene on the GPU
 #[derive(clap::Args, Debug)]
@@ -47,7 +47,7 @@ pub(in crate::cli) fn run(args: &Args, output: Output) -> Result<Status, Error> 
         parameters: args.parameters.iter().cloned().collect(),
         filter: if args.hardware_filter { Filter::Hardware } else { Filter::Manual },
         timing: args.timing.map(|seconds| Timing { seconds, ..Timing::default() }),
-        elide: !args.keep_all,
+        keep: if args.keep_all { Keep::Everything } else { Keep::Needed },
     };
     let gpu = args.adapter.open()?;
     let rendering = realtime::render(&gpu, &scene, &request)?;

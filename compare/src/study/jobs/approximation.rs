@@ -3,7 +3,7 @@
 use super::Made;
 use crate::Error;
 use crate::study::cache::Id;
-use realtime::{Filter, Gpu, Method, Request, Timing};
+use realtime::{Filter, Gpu, Keep, Method, Request, Timing};
 use scenes::rendering::Pass;
 use scenes::{LayerName, Scene, View};
 use serde::Serialize;
@@ -46,7 +46,7 @@ impl<'a> Approximation<'a> {
             parameters: BTreeMap::new(),
             filter: Filter::Manual,
             timing: Some(timing),
-            elide: true,
+            keep: Keep::Needed,
         };
         Self { scene, request }
     }
@@ -77,7 +77,7 @@ impl<'a> Approximation<'a> {
             ..self.request.view.clone()
         };
         let lean = Request { view, ..self.request.clone() };
-        let full = Request { elide: false, ..lean.clone() };
+        let full = Request { keep: Keep::Everything, ..lean.clone() };
         let same = realtime::plan(self.scene, &lean)? == realtime::plan(self.scene, &full)?;
         // Only the frame that is timed, and three times: it is a comparison.
         let mut request = full;

@@ -10,7 +10,7 @@ use crate::gpu::readback;
 use crate::gpu::recorder::{Allocator, Recorder};
 use crate::methods::{Method, Settings};
 use crate::passes::Composition;
-use crate::{Filter, Gpu, Request};
+use crate::{Filter, Gpu, Keep, Request};
 use glam::{DAffine3, DVec3};
 use scenes::environment::{LatLong, Map};
 use scenes::scene::{Motion, Paint};
@@ -68,7 +68,7 @@ fn drawn(scene: &Scene, frame: u32) -> Vec<(DVec3, DVec3)> {
         parameters: [].into(),
         filter: Filter::Hardware,
         timing: None,
-        elide: true,
+        keep: Keep::Needed,
     };
     let settings = Settings::new(method, &request.parameters).unwrap();
     let geometry = Geometry::new(scene, frame).unwrap();
