@@ -113,12 +113,14 @@ pub enum Error {
         /// What the driver said.
         what: String,
     },
-    /// The scene has something that is valid and not rendered yet.
-    #[error("{what} is not rendered by method {method} yet")]
-    NotYet {
-        /// Part of the scene.
-        what: String,
-        /// Id of the method.
-        method: String,
+    /// More of something than the shaders have room for.
+    #[error("a scene of {count} {what} cannot be drawn by any method; there may be {most}")]
+    TooMany {
+        /// What there is too much of.
+        what: &'static str,
+        /// How many.
+        count: usize,
+        /// How many there may be.
+        most: usize,
     },
 }

@@ -1,109 +1,126 @@
-//! The frame, in the order in which it runs. Read this first: [`Frame::record`]
-//! is everything that happens on the GPU.
+//! The frame, in the order in which it runs. Read this first: [`PASSES`] is
+//! everything that happens on the GPU.
 
+use crate::composition::inputs::Inputs;
 use crate::drawn::frame_uniforms::{Viewed, upload_numbers};
-use crate::gpu::environment_upload::upload_environment;
-use crate::gpu::recorder::{Allocator, Recorder};
-use crate::gpu::resources::Resources;
-use crate::passes::Composition;
-use crate::passes::backdrop::DrawnBackdrop;
-use crate::passes::cracks_and_air::DrawnInterior;
-use crate::passes::normal_cube::DrawnNormals;
-use crate::passes::peel::{Counted, Peeled};
-use crate::passes::pipelines::{DrawnSurfaces, Maker, OverPixels};
+use crate::drawn::geometry::Geometry;
+use crate::gpu::allocator::Allocator;
+use crate::gpu::recorder::Recorder;
+use crate::gpu::resources::Outputs;
+use crate::passes::{Listed, Maker, Making, Pass, Ready, Wanted};
+use crate::passes::{back, backdrop, cracks_and_air, front, normal_cube, peel, shade};
+use crate::plan::counted::Counted;
+use crate::plan::entries::Entries;
 use crate::{Error, Gpu};
+use scenes::Plan;
+use scenes::plan::Kind;
 
-use wgpu::TextureUsages;
+/// Every pass there is, in the order in which they run.
+const PASSES: [Listed; 7] = [
+    backdrop::LISTED,
+    normal_cube::LISTED,
+    front::LISTED,
+    back::LISTED,
+    peel::LISTED,
+    cracks_and_air::LISTED,
+    shade::LISTED,
+];
+
+/// A frame, as far as it can be known without a GPU.
+pub(crate) struct Composition<'a> {
+    inputs: Inputs<'a>,
+    /// Beside [`PASSES`], the last first; `None` for those that are not needed.
+    passes: Vec<Option<Box<dyn Pass>>>,
+    /// Column, row, width and height of the pixels that the bodies can reach, if
+    /// they are not all.
+    within_px: Option<[u32; 4]>,
+}
+
+impl<'a> Composition<'a> {
+    /// The last pass first: what it reads decides what runs before it.
+    pub(crate) fn new(inputs: Inputs<'a>) -> Result<Self, Error> {
+        let inputs = inputs.decided()?;
+        let mut passes: Vec<Option<Box<dyn Pass>>> = Vec::new();
+        for listed in PASSES.iter().rev() {
+            let wanted = Wanted { inputs: &inputs, later: &passes };
+            let pass = (listed.compose)(&inputs, &wanted)?;
+            passes.push(pass);
+        }
+        let within_px = if inputs.is_off_screen() { None } else { inputs.within_px() };
+        Ok(Self { inputs, passes, within_px })
+    }
+
+    /// True if some pass writes the distance through the body.
+    pub(crate) fn reads_thickness(&self) -> bool {
+        let keeps = self.inputs.keeps_all();
+        keeps || self.passes.iter().flatten().any(|pass| pass.reads(front::THICKNESS))
+    }
+
+    pub(crate) fn draws_clipped_cracks(&self) -> bool {
+        self.inputs.draws_clipped_cracks()
+    }
+
+    /// Its plan. `repeated`: of a frame after the first.
+    pub(crate) fn plan(
+        &self,
+        geometry: &Geometry,
+        repeated: bool,
+        counted: Option<Counted>,
+    ) -> Plan {
+        let mut entries = Entries { repeated, counted, ..Entries::new(&self.inputs, geometry) };
+        entries.bodies();
+        for (listed, pass) in PASSES.iter().zip(self.passes.iter().rev()) {
+            match pass {
+                Some(pass) => pass.plan(&mut entries),
+                None => (listed.absent)(&mut entries),
+            }
+        }
+        if let Some([_, _, width, height]) = self.within_px {
+            let kept = u64::from(width) * u64::from(height);
+            let share = 100.0 * (1.0 - kept as f64 / entries.pixels as f64);
+            let reason = format!("the bodies lie within {width} x {height} pixels");
+            let what = format!("drawing {share:.0} % of the image");
+            entries.plan.leave_out(Kind::Code, &what, &reason, 0);
+        }
+        entries.plan
+    }
+}
 
 /// Pipelines and memory of a frame, ready to run any number of times.
 pub(crate) struct Frame {
-    resolution_px: [u32; 2],
-    backdrop: Option<DrawnBackdrop>,
-    normals: Option<DrawnNormals>,
-    front: Option<DrawnSurfaces>,
-    back: Option<DrawnSurfaces>,
-    peel: Option<Peeled>,
-    interior: Option<DrawnInterior>,
-    shade: OverPixels,
-    pub(crate) resources: Resources,
+    passes: Vec<Ready>,
+    /// What all of them handed on.
+    pub(crate) outputs: Outputs,
 }
 
 impl Frame {
-    /// Everything that happens, in order. What never changes is drawn only in
-    /// the first frame.
+    /// Everything that happens, in order. `first`: also what never changes.
     pub(crate) fn record(&self, recorder: &mut Recorder<'_>, first: bool) {
-        if let Some(backdrop) = &self.backdrop {
-            backdrop.record(recorder, first);
-        }
-        if let Some(normals) = &self.normals {
-            normals.record(recorder, first);
-        }
-        if let Some(front) = &self.front {
-            front.record(recorder, &self.resources);
-        }
-        if let Some(back) = &self.back {
-            back.record(recorder, &self.resources);
-        }
-        if let Some(peel) = &self.peel {
-            peel.record(recorder);
-        }
-        if let Some(interior) = &self.interior {
-            interior.record(recorder);
-        }
-        self.shade.record(recorder, "shade", self.resolution_px);
+        self.passes.iter().for_each(|ready| ready.pass.record(recorder, first));
     }
 
     /// Layers per pixel that were counted, if any are collected.
-    pub(crate) fn layers(&self) -> Option<Counted> {
-        self.peel.as_ref().map(|peel| peel.counted)
+    pub(crate) fn counted(&self) -> Option<Counted> {
+        self.passes.iter().find_map(|ready| ready.counted)
     }
 
     /// Makes pipelines and memory.
     pub(crate) fn new(
         gpu: &Gpu,
         allocator: &Allocator<'_>,
-        composition: &Composition,
+        composition: &Composition<'_>,
         view: &Viewed<'_>,
     ) -> Result<Self, Error> {
-        let mut resources = Resources::default();
-        upload_numbers(allocator, view, &mut resources)?;
-        let backdrop = composition
-            .backdrop
-            .as_ref()
-            .map(|backdrop| DrawnBackdrop::new(gpu, allocator, backdrop, view, &mut resources));
-        let backdrop = backdrop.transpose()?;
-        if backdrop.is_none() {
-            let reader = (&composition.shade, "shade");
-            upload_environment(gpu, allocator, reader, view.environment, &mut resources)?;
+        let mut outputs = upload_numbers(allocator, view)?;
+        let bodies = Maker::new(gpu, allocator, &view.geometry.bodies, view.resolution_px)?;
+        let bodies = bodies.within(composition.within_px);
+        let mut passes = Vec::new();
+        for pass in composition.passes.iter().rev().flatten() {
+            let making = Making { view, bodies: bodies.clone(), before: &outputs };
+            let ready = pass.ready(&making)?;
+            outputs = ready.outputs.clone().over(&outputs);
+            passes.push(ready);
         }
-        for output in &composition.outputs {
-            let usage = TextureUsages::STORAGE_BINDING | TextureUsages::COPY_SRC;
-            let size = [view.resolution_px[0], view.resolution_px[1], 1];
-            let texture =
-                allocator.texture(output, size, wgpu::TextureFormat::Rgba32Float, usage)?;
-            resources.texture(output, texture);
-        }
-        let bodies = &view.geometry.bodies;
-        let maker = Maker::new(gpu, allocator, bodies, view.resolution_px)?;
-        let maker = maker.within(composition.within_px);
-        let front = composition.front.as_ref();
-        let front = front.map(|front| maker.surfaces(front, &mut resources)).transpose()?;
-        let back = composition.back.as_ref();
-        let back = back.map(|back| maker.surfaces(back, &mut resources)).transpose()?;
-        let peel = composition.peel.as_ref();
-        let peel = peel.map(|peel| Peeled::new(&maker, peel, view, &mut resources)).transpose()?;
-        let interior = composition
-            .interior
-            .as_ref()
-            .map(|interior| DrawnInterior::new(&maker, interior, view, &mut resources));
-        let interior = interior.transpose()?;
-        let normals = composition
-            .normals
-            .as_ref()
-            .map(|normals| DrawnNormals::new(&maker, normals, view, &mut resources));
-        let normals = normals.transpose()?;
-        let shade = maker.over_pixels(&composition.shade, "shade", &resources)?;
-        let resolution_px = view.resolution_px;
-        Ok(Self { resolution_px, backdrop, normals, front, back, peel, interior, shade, resources })
+        Ok(Self { passes, outputs })
     }
 }

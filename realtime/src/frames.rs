@@ -10,7 +10,7 @@ use scenes::{LayerName, View};
 pub(crate) const TIMED: &str = "timed: ";
 
 /// One frame of a request.
-pub(crate) struct Part {
+pub(crate) struct FrameRequest {
     /// Before the names of its passes; empty for the first.
     pub(crate) label: &'static str,
     /// The request, reduced to what this frame answers.
@@ -21,7 +21,7 @@ pub(crate) struct Part {
     pub(crate) scale: u32,
 }
 
-impl Part {
+impl FrameRequest {
     pub(crate) fn is_timed(&self) -> bool {
         self.label == TIMED
     }
@@ -45,31 +45,31 @@ impl Part {
 /// pixel centres (together with the light where k is 1), and the frame that is
 /// timed, which is what a game would draw: light only, one position, the
 /// hardware's filter.
-pub(crate) fn parts(request: &Request, outputs: &[&'static str]) -> Vec<Part> {
+pub(crate) fn frames(request: &Request, outputs: &[&'static str]) -> Vec<FrameRequest> {
     let k = request.view.positions_per_axis;
     let reduced = |keep: fn(&LayerName) -> bool, filter| {
         let layers = request.view.layers.iter().filter(|layer| keep(layer)).cloned().collect();
         Request { view: View { layers, ..request.view.clone() }, filter, ..request.clone() }
     };
-    let mut parts = Vec::new();
+    let mut frames = Vec::new();
     let light = || vec!["radiance"];
     if outputs.contains(&"radiance") && k > 1 {
         let request = reduced(is_light, request.filter);
-        parts.push(Part { label: "", request, outputs: light(), scale: k });
+        frames.push(FrameRequest { label: "", request, outputs: light(), scale: k });
     }
     let single = outputs.iter().copied().filter(|output| k == 1 || *output != "radiance");
     let single: Vec<_> = single.collect();
-    let nothing_else = parts.is_empty() && request.timing.is_none();
+    let nothing_else = frames.is_empty() && request.timing.is_none();
     if !single.is_empty() || !buffers(request).is_empty() || nothing_else {
-        let label = if parts.is_empty() { "" } else { "centre: " };
+        let label = if frames.is_empty() { "" } else { "centre: " };
         let request = reduced(|_| true, request.filter);
-        parts.push(Part { label, request, outputs: single, scale: 1 });
+        frames.push(FrameRequest { label, request, outputs: single, scale: 1 });
     }
     if request.timing.is_some() {
         let request = reduced(is_light, Filter::Hardware);
-        parts.push(Part { label: TIMED, request, outputs: light(), scale: 1 });
+        frames.push(FrameRequest { label: TIMED, request, outputs: light(), scale: 1 });
     }
-    parts
+    frames
 }
 
 fn is_light(layer: &LayerName) -> bool {

@@ -1,8 +1,8 @@
 //! The approximations: published image-space refraction on wgpu.
 //!
-//! Start with `frame.rs`. A method is one WGSL file and one row of
-//! [`methods::METHODS`]; passes, buffers and bindings follow from what the WGSL
-//! reads. This crate knows nothing of the exact renderer, and only this crate
+//! Start with `frame.rs`. A method is one WGSL file and one row with its parameters
+//! in [`methods`]; passes, buffers and bindings follow from what the WGSL reads. A
+//! pass is a file in `passes` and one row in `frame.rs`. This crate knows nothing of the exact renderer, and only this crate
 //! knows wgpu.
 
 mod composition;
@@ -14,6 +14,7 @@ mod gpu;
 pub mod methods;
 mod passes;
 mod plan;
+mod readout;
 mod render;
 mod request;
 mod wgsl;
@@ -21,6 +22,5 @@ mod wgsl;
 pub use error::Error;
 pub use gpu::{AdapterInfo, Gpu, adapters};
 pub use methods::{METHODS, Method};
-pub use plan::plan;
-pub use render::render;
+pub use render::{plan, render};
 pub use request::{Filter, Keep, Request, Timing};

@@ -1,24 +1,42 @@
-//! A method's image of a scene.
+//! What a request comes to: its plan, and its image.
 
-use crate::composition::inputs::Order;
-use crate::composition::outputs::{BUFFERS, buffers, camera, outputs};
+use crate::composition::inputs::Inputs;
+use crate::composition::outputs::{camera, outputs};
 use crate::drawn::frame_uniforms::Viewed;
 use crate::drawn::geometry::Geometry;
-use crate::frame::Frame;
-use crate::frames::{Part, TIMED, parts};
-use crate::gpu::readback;
-use crate::gpu::recorder::{Allocator, Executed, Recorder};
+use crate::frame::{Composition, Frame};
+use crate::frames::{FrameRequest, frames};
+use crate::gpu::allocator::Allocator;
+use crate::gpu::recorder::{Executed, Recorder};
 use crate::methods::{Method, Settings};
-use crate::passes::Composition;
-use crate::passes::peel::{self, LayerPart};
-use crate::plan::timing::Done;
+use crate::passes::peel;
+use crate::plan::timing::FrameTimes;
+use crate::readout::Readout;
 use crate::request::{Request, Timing};
-use crate::{Error, Gpu, plan};
-use rayon::prelude::*;
+use crate::wgsl::Choices;
+use crate::{Error, Gpu};
+use scenes::plan::Buffer;
 use scenes::rendering::Provenance;
-use scenes::{Camera, LayerName, Layers, Plan, Rendering, Scene};
+use scenes::{Camera, Layers, Plan, Rendering, Scene};
 use std::borrow::Cow;
 use std::time::Instant;
+
+/// What a method will do with a scene.
+///
+/// # Errors
+/// If the method, a parameter or a layer is unknown.
+pub fn plan(scene: &Scene, request: &Request) -> Result<Plan, Error> {
+    let method = Method::find(&request.method)?;
+    let settings = Settings::new(method, &request.parameters)?;
+    let asked = Asked::new(scene, request, method, &settings)?;
+    let mut plan = Plan::default();
+    for frame in frames(request, &outputs(method, request)?) {
+        let composition = Composition::new(asked.inputs(&frame))?;
+        let geometry = asked.drawn(&composition);
+        add(&mut plan, frame.label, composition.plan(&geometry, frame.is_timed(), None));
+    }
+    Ok(plan)
+}
 
 /// Renders a scene with a method.
 ///
@@ -33,71 +51,98 @@ pub fn render(gpu: &Gpu, scene: &Scene, request: &Request) -> Result<Rendering, 
     let method = Method::find(&request.method)?;
     let mut settings = Settings::new(method, &request.parameters)?;
     peel::decide(&mut settings, gpu);
-    let geometry = Geometry::new(scene, request.view.frame)?;
+    let asked = Asked::new(scene, request, method, &settings)?;
     let wanted = outputs(method, request)?;
-    let camera = camera(scene, request);
-    let job = Job { gpu, scene, request, method, settings: &settings, geometry: &geometry, camera };
-    gpu.scoped(|| job.run(&wanted))
+    gpu.scoped(|| asked.run(gpu, &wanted))
 }
 
-struct Job<'a> {
-    gpu: &'a Gpu,
+/// What was asked for, looked up and checked.
+struct Asked<'a> {
     scene: &'a Scene,
     request: &'a Request,
     method: &'static Method,
     settings: &'a Settings,
-    geometry: &'a Geometry,
+    geometry: Geometry,
     camera: Camera,
 }
 
-impl Job<'_> {
-    fn run(&self, wanted: &[&'static str]) -> Result<Rendering, Error> {
-        let mut layers = Layers::new(self.request.view.resolution_px);
-        let mut done = Done::default();
-        let mut plan = Plan::default();
-        for part in parts(self.request, wanted) {
-            let part = part.on(self.gpu);
-            let ran = self.frame(&part)?;
-            let layers_held = ran.frame.layers();
-            plan::add(&mut plan, &ran.composition, self.scene, self.geometry, &part, layers_held);
-            done.layers(layers_held, ran.composition.peel.as_ref());
-            done.bytes += ran.allocator.allocated().iter().map(|buffer| buffer.bytes).sum::<u64>();
-            let timed = match (part.label, self.request.timing) {
-                (TIMED, Some(timing)) => self.time(&ran, timing)?,
-                _ => Vec::new(),
-            };
-            let per_frame_ms = ran.thickness_ms.filter(|_| self.geometry.deforms);
-            done.add(part.label, &ran.executed.passes, &timed, per_frame_ms);
-            if part.label == TIMED {
-                continue;
-            }
-            if part.outputs.contains(&"radiance") {
-                self.read_radiance(&ran, part.scale, &mut layers)?;
-            }
-            if part.scale == 1 {
-                self.read_single(&ran, &part.request, &mut layers)?;
-            }
-        }
-        Ok(self.answer(done, plan, layers))
+/// A frame that was rendered.
+struct Ran {
+    plan: Plan,
+    /// Of everything that was allocated.
+    bytes: u64,
+    frame: Frame,
+    executed: Executed,
+    /// What it took to find the distances through the bodies, if they are read.
+    thickness_ms: Option<f64>,
+}
+
+impl<'a> Asked<'a> {
+    fn new(
+        scene: &'a Scene,
+        request: &'a Request,
+        method: &'static Method,
+        settings: &'a Settings,
+    ) -> Result<Self, Error> {
+        let geometry = Geometry::new(scene, request.view.frame)?;
+        let camera = camera(scene, request);
+        Ok(Self { scene, request, method, settings, geometry, camera })
     }
 
-    fn frame(&self, part: &Part) -> Result<Ran<'_>, Error> {
-        let order = Order {
+    fn inputs<'b>(&'b self, frame: &'b FrameRequest) -> Inputs<'b> {
+        Inputs {
             method: self.method,
             settings: self.settings,
             scene: self.scene,
             camera: &self.camera,
-            geometry: self.geometry,
-            request: &part.request,
-            outputs: &part.outputs,
-            resolution_px: part.resolution_px(),
-        };
-        let composition = Composition::new(&order)?;
-        let allocator = Allocator::new(self.gpu);
-        let mut geometry = Cow::Borrowed(self.geometry);
+            geometry: &self.geometry,
+            request: &frame.request,
+            outputs: &frame.outputs,
+            resolution_px: frame.resolution_px(),
+            choices: Choices::default(),
+            index_matched: false,
+        }
+    }
+
+    /// The geometry as a frame draws it.
+    fn drawn(&self, composition: &Composition<'_>) -> Cow<'_, Geometry> {
+        let mut geometry = Cow::Borrowed(&self.geometry);
         if composition.draws_clipped_cracks() {
             geometry.to_mut().clip_cracks(self.scene, self.request.view.frame);
         }
+        geometry
+    }
+
+    fn run(&self, gpu: &Gpu, wanted: &[&'static str]) -> Result<Rendering, Error> {
+        let mut layers = Layers::new(self.request.view.resolution_px);
+        let mut times = FrameTimes::default();
+        let mut plan = Plan::default();
+        for request in frames(self.request, wanted) {
+            let request = request.on(gpu);
+            let ran = self.frame(gpu, &request)?;
+            ran.frame.counted().into_iter().for_each(|counted| times.layers(counted));
+            times.bytes += ran.bytes;
+            let timed = match (request.is_timed(), self.request.timing) {
+                (true, Some(timing)) => time(gpu, &ran, timing)?,
+                _ => Vec::new(),
+            };
+            let per_frame_ms = ran.thickness_ms.filter(|_| self.geometry.deforms);
+            times.add(request.label, &ran.executed.passes, &timed, per_frame_ms);
+            if !request.is_timed() {
+                let (method, geometry) = (self.method, &self.geometry);
+                let view = &self.request.view;
+                Readout { gpu, method, geometry, view, frame: &ran.frame }
+                    .read(&request, &mut layers)?;
+            }
+            add(&mut plan, request.label, ran.plan);
+        }
+        Ok(self.answer(gpu, times, plan, layers))
+    }
+
+    fn frame(&self, gpu: &Gpu, request: &FrameRequest) -> Result<Ran, Error> {
+        let composition = Composition::new(self.inputs(request))?;
+        let allocator = Allocator::new(gpu);
+        let mut geometry = self.drawn(&composition);
         let mut thickness_ms = None;
         if composition.reads_thickness() {
             let started = Instant::now();
@@ -109,145 +154,32 @@ impl Job<'_> {
             environment: &self.scene.environment,
             camera: &self.camera,
             eta_outside: self.scene.media[0].eta.get(),
-            resolution_px: part.resolution_px(),
+            resolution_px: request.resolution_px(),
         };
-        let frame = Frame::new(self.gpu, &allocator, &composition, &viewed)?;
-        let mut executed = self.once(&frame, false, true)?;
-        if part.is_timed() {
+        let frame = Frame::new(gpu, &allocator, &composition, &viewed)?;
+        let mut executed = once(gpu, &frame, false, true)?;
+        if request.is_timed() {
             // The frames after the first are what a game draws.
-            executed = self.once(&frame, true, false)?;
+            executed = once(gpu, &frame, true, false)?;
         }
-        Ok(Ran { composition, allocator, frame, executed, thickness_ms })
+        let plan = composition.plan(&geometry, request.is_timed(), frame.counted());
+        let bytes = allocator.allocated().iter().map(|buffer| buffer.bytes).sum();
+        Ok(Ran { plan, bytes, frame, executed, thickness_ms })
     }
 
-    fn once(&self, frame: &Frame, timed: bool, first: bool) -> Result<Executed, Error> {
-        let mut recorder = Recorder::new(self.gpu, timed);
-        frame.record(&mut recorder, first);
-        recorder.finish()
-    }
-
-    fn read_radiance(&self, ran: &Ran<'_>, k: u32, layers: &mut Layers) -> Result<(), Error> {
-        let values = self.read(ran, "radiance")?;
-        let [width, height] = self.request.view.resolution_px.map(|n| n as usize);
-        let k = k as usize;
-        let mut radiance = vec![0.0; 3 * width * height];
-        let mut coverage = vec![0.0; width * height];
-        let rows = radiance.par_chunks_mut(3 * width).zip(coverage.par_chunks_mut(width));
-        rows.zip(values.par_chunks(4 * width * k * k)).for_each(
-            |((radiance, coverage), values)| {
-                for (i, value) in values.chunks_exact(4).enumerate() {
-                    let pixel = i % (width * k) / k;
-                    for channel in 0..3 {
-                        radiance[3 * pixel + channel] += f64::from(value[channel]);
-                    }
-                    coverage[pixel] += f64::from(value[3]);
-                }
-            },
-        );
-        let positions = (k * k) as f64;
-        radiance.iter_mut().chain(&mut coverage).for_each(|value| *value /= positions);
-        self.push(layers, LayerName::Radiance, 3, radiance);
-        self.push(layers, LayerName::Coverage, 1, coverage);
-        Ok(())
-    }
-
-    fn read_single(
-        &self,
-        ran: &Ran<'_>,
-        request: &Request,
-        layers: &mut Layers,
-    ) -> Result<(), Error> {
-        for (output, name) in
-            [("exit", LayerName::Exit), ("first", LayerName::First), ("hit2", LayerName::Hit2)]
-        {
-            if ran.composition.outputs.contains(&output) {
-                let values = self.read(ran, output)?;
-                let centre =
-                    if output == "hit2" { self.geometry.centre.to_array() } else { [0.0; 3] };
-                let texels = values.chunks_exact(4);
-                let vectors = texels.flat_map(|v| {
-                    let written = f64::from(v[3]);
-                    [0, 1, 2].map(|i| (f64::from(v[i]) + centre[i]) * written)
-                });
-                self.push(layers, name, 3, vectors.collect());
-            }
-        }
-        if ran.composition.outputs.contains(&"count") {
-            let values = self.read(ran, "count")?;
-            let channel = |i: usize| values.chunks_exact(4).map(|v| f64::from(v[i])).collect();
-            self.push(layers, LayerName::Events, 1, channel(0));
-            self.push(layers, LayerName::Flags, 1, channel(1));
-            for layer in &self.request.view.layers {
-                if let LayerName::Path(_) = layer {
-                    self.push(layers, layer.clone(), 1, channel(2));
-                }
-            }
-        }
-        self.read_buffers(ran, request, layers)
-    }
-
-    fn read_buffers(
-        &self,
-        ran: &Ran<'_>,
-        request: &Request,
-        layers: &mut Layers,
-    ) -> Result<(), Error> {
-        for name in buffers(request) {
-            let nothing_drawn = name == "crack_mask" && ran.composition.interior.is_none();
-            let values = if nothing_drawn {
-                vec![0.0; layers.pixels()]
-            } else if let (Some(part), Some(counted)) = (LayerPart::named(name), ran.frame.layers())
-            {
-                let of = (layers.pixels(), self.geometry.nested);
-                part.read(self.gpu, &ran.frame.resources, counted, of)?
-            } else if name == "thickness" {
-                let (front, back) = (self.read(ran, "front_depth")?, self.read(ran, "back_depth")?);
-                back.iter().zip(&front).map(|(b, f)| f64::from((b - f).max(0.0))).collect()
-            } else {
-                self.read(ran, name)?.into_iter().map(f64::from).collect::<Vec<_>>()
-            };
-            let channels = values.len() / layers.pixels();
-            let (channels, values) = if channels == 4 {
-                let vectors = values.chunks_exact(4).flat_map(|v| [v[0], v[1], v[2]]);
-                (3, vectors.collect())
-            } else {
-                (channels, values)
-            };
-            self.push(layers, LayerName::Buffer(name.to_owned()), channels, values);
-        }
-        Ok(())
-    }
-
-    fn read(&self, ran: &Ran<'_>, name: &str) -> Result<Vec<f32>, Error> {
-        let texture = ran.frame.resources.image(name).ok_or_else(|| Error::UnknownLayer {
-            method: self.method.id.to_owned(),
-            layer: name.to_owned(),
-            available: BUFFERS.join(", "),
-        })?;
-        let channels = if texture.format() == wgpu::TextureFormat::R32Float { 1 } else { 4 };
-        readback::texture_values(self.gpu, texture, channels)
-    }
-
-    /// Keeps a layer if it was asked for.
-    fn push(&self, layers: &mut Layers, name: LayerName, channels: usize, data: Vec<f64>) {
-        if self.request.view.wants(&name) && layers.get(&name).is_none() {
-            layers.push(name, channels, data);
-        }
-    }
-
-    fn answer(&self, done: Done, plan: Plan, layers: Layers) -> Rendering {
-        let info = self.gpu.info();
+    fn answer(&self, gpu: &Gpu, times: FrameTimes, plan: Plan, layers: Layers) -> Rendering {
+        let info = gpu.info();
         let counters = [
-            ("passes", done.count),
-            ("bytes", done.bytes),
+            ("passes", times.count),
+            ("bytes", times.bytes),
             ("triangles", self.geometry.bodies.corners.len() as u64 / 3),
-            ("timed_frames", done.timed_frames),
-            ("layers", done.layers),
-            ("layer_bytes", done.layer_bytes),
+            ("timed_frames", times.timed_frames),
+            ("layers", times.layers),
+            ("layer_bytes", times.layer_bytes),
         ];
         Rendering {
             layers,
-            passes: done.passes,
+            passes: times.passes,
             counters: counters.map(|(name, value)| (name.to_owned(), value)).into(),
             plan,
             provenance: Provenance {
@@ -261,33 +193,43 @@ impl Job<'_> {
             },
         }
     }
-
-    /// Times of frames after the two that were drawn already.
-    fn time(&self, ran: &Ran<'_>, timing: Timing) -> Result<Vec<Executed>, Error> {
-        let frame = &ran.frame;
-        for _ in 2..timing.warm_up {
-            self.once(frame, true, false)?;
-        }
-        let started = Instant::now();
-        let mut frames = Vec::new();
-        if timing.warm_up < 2 {
-            frames.push(ran.executed.clone());
-        }
-        while frames.len() < 3
-            || (started.elapsed().as_secs_f64() < timing.seconds
-                && frames.len() < timing.max_frames as usize)
-        {
-            frames.push(self.once(frame, true, false)?);
-        }
-        Ok(frames)
-    }
 }
 
-struct Ran<'a> {
-    composition: Composition,
-    allocator: Allocator<'a>,
-    frame: Frame,
-    executed: Executed,
-    /// What it took to find the distances through the bodies, if they are read.
-    thickness_ms: Option<f64>,
+/// Adds a frame to a plan. What is left out is told once, for the first.
+fn add(plan: &mut Plan, label: &str, of_frame: Plan) {
+    if label.is_empty() {
+        *plan = of_frame;
+        return;
+    }
+    let labelled = |name: &str| format!("{label}{name}");
+    plan.passes.extend(of_frame.passes.iter().map(|name| labelled(name)));
+    let buffers = of_frame.buffers.iter();
+    let labelled = buffers.map(|b| Buffer { name: labelled(&b.name), bytes: b.bytes });
+    plan.buffers.extend(labelled);
+}
+
+fn once(gpu: &Gpu, frame: &Frame, timed: bool, first: bool) -> Result<Executed, Error> {
+    let mut recorder = Recorder::new(gpu, timed);
+    frame.record(&mut recorder, first);
+    recorder.finish()
+}
+
+/// Times of frames after the two that were drawn already.
+fn time(gpu: &Gpu, ran: &Ran, timing: Timing) -> Result<Vec<Executed>, Error> {
+    let frame = &ran.frame;
+    for _ in 2..timing.warm_up {
+        once(gpu, frame, true, false)?;
+    }
+    let started = Instant::now();
+    let mut frames = Vec::new();
+    if timing.warm_up < 2 {
+        frames.push(ran.executed.clone());
+    }
+    while frames.len() < 3
+        || (started.elapsed().as_secs_f64() < timing.seconds
+            && frames.len() < timing.max_frames as usize)
+    {
+        frames.push(once(gpu, frame, true, false)?);
+    }
+    Ok(frames)
 }

@@ -1,117 +1,107 @@
-//! Pieces of WGSL that depend on settings, and the few that are generated.
+//! Which file stands for each need of the shaders that is a choice: by the scene,
+//! by what was asked for, or by a word of a parameter.
 
-use crate::methods::{Method, Settings};
-use crate::wgsl::Piece;
-use scenes::{Camera, Projection};
-
-macro_rules! piece {
-    ($name:literal) => {
-        $crate::wgsl::Piece::new(
-            $name,
-            include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/src/shaders/", $name)),
-        )
-    };
-}
-pub(crate) use piece;
+use super::inputs::Inputs;
+use crate::methods::{Settings, Value};
+use crate::request::Filter;
+use crate::wgsl::{Choices, Source, named};
+use crate::{Error, methods::Method};
+use scenes::{Environment, Projection};
 
 /// Images that the shading pass can write.
 pub(crate) const OUTPUTS: [&str; 5] = ["radiance", "exit", "first", "hit2", "count"];
 
-/// The precision of stored back normals.
-pub(crate) fn stored_normal_piece(settings: &Settings) -> Piece {
-    let body = match settings.word_if_any("back_format") {
-        // What an 8-bit texture keeps of (n + 1) / 2.
-        Some("8-bit") => "round((0.5 * n_ws + 0.5) * 255.0) / 127.5 - 1.0",
-        _ => "n_ws",
-    };
-    let text = format!("fn stored_normal(n_ws: vec3f) -> vec3f {{ return {body}; }}\n");
-    Piece::new("stored normal", text)
-}
+/// What stands for a parameter's need where a method has no such parameter.
+const WITHOUT_PARAMETER: [(&str, &str); 6] = [
+    ("back_format", "back_format_32_bit"),
+    ("depth_format", "depth_format_float"),
+    ("eye", "eye_fragment"),
+    ("fresnel", "fresnel_none"),
+    ("index", "index_own"),
+    ("peel_camera", "peel_camera_screen"),
+];
 
-pub(crate) fn camera_piece(camera: &Camera) -> Piece {
-    match camera.projection {
-        Projection::Perspective { .. } => piece!("core/camera_perspective.wgsl"),
-        Projection::Orthographic { .. } => piece!("core/camera_orthographic.wgsl"),
+/// Every choice.
+pub(crate) fn choices(inputs: &Inputs<'_>) -> Choices {
+    let mut choices = Choices::default();
+    by_parameters(inputs.settings, &mut choices);
+    by_scene(inputs, &mut choices);
+    for output in OUTPUTS {
+        let way = if inputs.outputs.contains(&output) { "out" } else { "no" };
+        choices.choose(&format!("out_{output}"), &format!("{way}_{output}"));
     }
+    choices
 }
 
-/// The reflected part: which formula, or none at all.
-pub(crate) fn reflection(settings: &Settings) -> Vec<Piece> {
-    let share = match settings.word_if_any("fresnel") {
-        None | Some("none") => return vec![piece!("shade/reflect_none.wgsl")],
-        _ if settings.word_if_any("eye") == Some("vertex") => "share_of_vertices(surface.pixel)",
-        Some("eq4") => "fresnel_cubed(v_ws, surface.normal_ws)",
-        Some("schlick") => {
-            "fresnel_schlick(v_ws, surface.normal_ws, frame.eta_outside, eta_body(surface.body))"
-        }
-        Some(_) => {
-            "fresnel_exact(v_ws, surface.normal_ws, frame.eta_outside, eta_body(surface.body))"
-        }
-    };
-    let text = format!(
-        "fn share_at_surface(v_ws: vec3f, surface: Surface) -> f32 {{ return {share}; }}\n"
-    );
-    vec![Piece::new("share at the surface", text), piece!("shade/reflect.wgsl")]
-}
-
-/// put_NAME() writes an image that is wanted and does nothing for one that is not.
-pub(crate) fn outputs_piece(outputs: &[&str]) -> Piece {
-    let mut text = String::new();
-    for (index, name) in OUTPUTS.iter().enumerate() {
-        let binding = 32 + index;
-        let body = if outputs.contains(name) {
-            text.push_str(&format!(
-                "@group(0) @binding({binding}) var out_{name}: texture_storage_2d<rgba32float, write>;\n"
-            ));
-            format!("textureStore(out_{name}, pixel, value);")
-        } else {
-            String::new()
+/// A word of a parameter chooses the file `PARAMETER_WORD`, where there is one, and
+/// a number chooses `PARAMETER_zero` or `PARAMETER_nonzero`. All numbers are
+/// constants in `parameters`.
+fn by_parameters(settings: &Settings, choices: &mut Choices) {
+    for (need, file) in WITHOUT_PARAMETER {
+        choices.choose(need, file);
+    }
+    let mut constants = String::new();
+    for (name, value) in settings.all() {
+        let constant = name.to_uppercase();
+        let kind = match value {
+            Value::Word(word) => word.replace('-', "_"),
+            Value::Number(number) => {
+                constants += &format!("const {constant}: f32 = {number:?};\n");
+                if *number == 0.0 { "zero".to_owned() } else { "nonzero".to_owned() }
+            }
+            Value::Whole(number) => {
+                constants += &format!("const {constant}: u32 = {number}u;\n");
+                if *number == 0 { "zero".to_owned() } else { "nonzero".to_owned() }
+            }
         };
-        text.push_str(&format!("fn put_{name}(pixel: vec2i, value: vec4f) {{ {body} }}\n"));
+        let file = format!("{name}_{kind}");
+        if named(&file).is_some() {
+            choices.choose(name, &file);
+        }
     }
-    Piece::new("outputs", text)
+    choices.give("parameters", Source::new("parameters", constants));
+    let reflects = !matches!(settings.word_if_any("fresnel"), None | Some("none"));
+    choices.choose("reflection", if reflects { "reflect" } else { "reflect_nothing" });
 }
 
-/// What a vertex hands to its pixels, for the methods that bend at vertices.
-pub(crate) fn vector_piece(method: &Method, settings: &Settings) -> Vec<Piece> {
-    let index = match settings.word_if_any("index") {
-        Some("ball") => "eta / max(2.0 - eta, 1e-3)",
-        _ => "eta",
+fn by_scene(inputs: &Inputs<'_>, choices: &mut Choices) {
+    let (geometry, keep_all) = (inputs.geometry, inputs.keeps_all());
+    let mut either = |need: &str, condition: bool, then: &str, otherwise: &str| {
+        choices.choose(need, if condition { then } else { otherwise });
     };
-    let body = match method.id {
-        "dx7-vertex" => {
-            let a = if settings.word("a") == "direct" { "n" } else { "1.0 / n" };
-            format!(
-                "let n = {index} / frame.eta_outside;\n    let a = {a};\n    \
-                 return vec4f((1.0 - a) * dot(n_ws, -v_ws) * n_ws + v_ws, 1.0);"
-            )
-        }
-        "one-interface-vertex" => {
-            format!("return vec4f(bend(v_ws, n_ws, frame.eta_outside / ({index})).direction, 1.0);")
-        }
-        "blended" if settings.word("eye") == "vertex" => {
-            let share = match settings.word("fresnel") {
-                "schlick" => "fresnel_schlick(v_ws, n_ws, frame.eta_outside, eta)",
-                "exact" => "fresnel_exact(v_ws, n_ws, frame.eta_outside, eta)",
-                _ => "fresnel_cubed(v_ws, n_ws)",
-            };
-            format!("return vec4f(v_ws, {share});")
-        }
-        _ => {
-            return vec![no_vector_piece()];
-        }
-    };
-    let text = format!(
-        "fn vertex_vector(v_ws: vec3f, n_ws: vec3f, body: u32) -> vec4f {{\n    \
-         let eta = bodies[body].eta;\n    {body}\n}}\n"
-    );
-    vec![piece!("core/interface.wgsl"), Piece::new("vertex vector", text)]
+    let perspective = matches!(inputs.camera.projection, Projection::Perspective { .. });
+    either("camera", perspective, "camera_perspective", "camera_orthographic");
+    either("background", inputs.draws_backdrop(), "background_drawn", "background_sky");
+    either("pack", geometry.nested, "pack_nested", "pack_single");
+    either("media", geometry.nested, "media_nested", "media_single");
+    either("surface_normal", geometry.bumps.is_some(), "bump", "bump_none");
+    let smooth = geometry.bodies.smooth || keep_all;
+    either("geometric_normal", smooth, "geometric_stored", "geometric_same");
+    let apart = (geometry.disperses || keep_all) && inputs.method.traces_colours;
+    either("eta", apart, "eta_dispersed", "eta_single");
+    either("colours", apart, "colours_apart", "colours_together");
+    either("absorption", geometry.absorbs || keep_all, "absorb", "absorb_none");
+    either("shown_cracks", inputs.shows_cracks(), "cracks_shown", "cracks_none");
+    either("shown_air", inputs.shows_air(), "air_shown", "air_none");
+    choices.choose("environment", environment(inputs, inputs.draws_backdrop()));
 }
 
-/// For passes whose vertices have nothing to hand on.
-pub(crate) fn no_vector_piece() -> Piece {
-    Piece::new(
-        "no vertex vector",
-        "fn vertex_vector(v_ws: vec3f, n_ws: vec3f, body: u32) -> vec4f { return vec4f(0.0); }\n",
-    )
+/// How the environment is looked up: the scene's, or one that was drawn.
+pub(crate) fn environment(inputs: &Inputs<'_>, drawn: bool) -> &'static str {
+    match (&inputs.scene.environment, inputs.request.filter) {
+        (Environment::Uniform(_), _) if !drawn => "environment_uniform",
+        (_, Filter::Manual) => "environment_manual",
+        (_, Filter::Hardware) => "environment_sampler",
+    }
+}
+
+/// Puts the method in: its file, and what it does at vertices. True if it changes
+/// the image even where all indices are equal.
+pub(crate) fn method(method: &Method, choices: &mut Choices) -> Result<bool, Error> {
+    choices.give("method", method.source.clone());
+    let files = choices.closure(&["method"])?;
+    let heads: Vec<_> = files.iter().map(Source::head).collect();
+    let at_vertices = heads.iter().find_map(|head| head.at_vertices.as_deref());
+    choices.choose("vertex_vector", at_vertices.unwrap_or("vertex_none"));
+    Ok(heads.iter().any(|head| head.bends_at_equal_index))
 }

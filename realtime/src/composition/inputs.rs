@@ -1,18 +1,20 @@
-//! What is to be composed, and the decisions that follow from it alone.
+//! What passes are composed from: what was asked for, and what follows from that
+//! alone.
 
-use crate::composition::chosen::{camera_piece, piece, stored_normal_piece, vector_piece};
+use super::chosen;
+use crate::Error;
 use crate::drawn::geometry::Geometry;
 use crate::drawn::projection::{in_view, projected_px};
 use crate::drawn::uniforms::Body;
 use crate::methods::{Method, Settings};
-use crate::request::{Filter, Keep, Request};
-use crate::wgsl::Piece;
+use crate::request::{Keep, Request};
+use crate::wgsl::Choices;
 use glam::DVec2;
-use scenes::{Camera, Environment, LayerName, Scene};
+use scenes::{Camera, LayerName, Scene};
 
-/// What is to be composed.
-#[derive(Clone, Copy)]
-pub(crate) struct Order<'a> {
+/// What a frame is composed for.
+#[derive(Clone)]
+pub(crate) struct Inputs<'a> {
     pub(crate) method: &'static Method,
     pub(crate) settings: &'a Settings,
     pub(crate) scene: &'a Scene,
@@ -23,33 +25,23 @@ pub(crate) struct Order<'a> {
     pub(crate) outputs: &'a [&'static str],
     /// Of the surface buffers.
     pub(crate) resolution_px: [u32; 2],
+    /// Files for the shaders' needs; made by [`Inputs::decided`].
+    pub(crate) choices: Choices,
+    /// Nothing bends light here; found by [`Inputs::decided`].
+    pub(crate) index_matched: bool,
 }
 
-impl Order<'_> {
-    /// How an interface becomes 32 bits.
-    pub(crate) fn pack(&self) -> Piece {
-        if self.geometry.nested {
-            piece!("layers/pack_nested.wgsl")
-        } else {
-            piece!("layers/pack_single.wgsl")
+impl Inputs<'_> {
+    /// Makes the choices that all passes share.
+    pub(crate) fn decided(mut self) -> Result<Self, Error> {
+        self.choices = chosen::choices(&self);
+        let bends_anyway = chosen::method(self.method, &mut self.choices)?;
+        self.index_matched = !bends_anyway && self.is_index_matched();
+        if self.index_matched {
+            self.choices.choose("method", "undeviated");
+            self.choices.choose("reflection", "reflect_nothing");
         }
-    }
-
-    /// What every pass that draws the bodies begins with.
-    pub(crate) fn raster_head(&self) -> Vec<Piece> {
-        self.raster_head_of(camera_piece(self.camera))
-    }
-
-    /// The same for another camera.
-    pub(crate) fn raster_head_of(&self, camera: Piece) -> Vec<Piece> {
-        let mut head = vec![piece!("core/frame.wgsl"), camera];
-        head.extend(vector_piece(self.method, self.settings));
-        match self.geometry.bumps {
-            Some(_) => head.extend([piece!("core/noise.wgsl"), piece!("raster/bump.wgsl")]),
-            None => head.push(piece!("raster/bump_none.wgsl")),
-        }
-        head.push(stored_normal_piece(self.settings));
-        head
+        Ok(self)
     }
 
     /// Nothing that could be left out is.
@@ -83,17 +75,12 @@ impl Order<'_> {
         partial.then(|| [low.x, low.y, extent.x, extent.y].map(|v| v as u32))
     }
 
-    /// The bodies have the index of what is around them and take no light. What
-    /// is interpolated between vertices bends a little even so, and eq. 4 of
-    /// Seipel & Nivfors reflects whatever the index: they are left as they are.
-    pub(crate) fn is_index_matched(&self) -> bool {
+    /// The bodies have the index of what is around them and take no light.
+    fn is_index_matched(&self) -> bool {
         let outside = self.scene.media[0].eta.get();
         let same = |body: &Body| (f64::from(body.eta) / outside - 1.0).abs() < 1e-7;
         let geometry = self.geometry;
-        let bends_anyway = self.method.id.ends_with("-vertex")
-            || self.settings.word_if_any("fresnel") == Some("eq4");
         !self.keeps_all()
-            && !bends_anyway
             && geometry.media.iter().all(same)
             && !geometry.absorbs
             && !geometry.disperses
@@ -104,22 +91,34 @@ impl Order<'_> {
         !self.geometry.opaque.is_empty()
     }
 
-    /// How the environment is looked up: the scene's, or one that was drawn.
-    pub(crate) fn environment_piece(&self, drawn: bool) -> Piece {
-        match (&self.scene.environment, self.request.filter) {
-            (Environment::Uniform(_), _) if !drawn => {
-                piece!("environment/environment_uniform.wgsl")
-            }
-            (_, Filter::Manual) => piece!("environment/environment_manual.wgsl"),
-            (_, Filter::Hardware) => piece!("environment/environment_sampler.wgsl"),
-        }
+    /// The scene has cracks and the method can show them.
+    pub(crate) fn shows_cracks(&self) -> bool {
+        self.settings.word_if_any("clip").is_some() && !self.geometry.cracks.is_empty()
     }
-}
 
-pub(crate) fn asked(request: &Request, name: &str) -> bool {
-    request.view.layers.iter().any(|layer| match layer {
-        LayerName::Buffer(buffer) if buffer == "thickness" => name.ends_with("_depth"),
-        LayerName::Buffer(buffer) => buffer == name,
-        _ => false,
-    })
+    /// The scene has enclosed air and the method can show it.
+    pub(crate) fn shows_air(&self) -> bool {
+        self.settings.word_if_any("clip").is_some() && !self.geometry.air.is_empty()
+    }
+
+    /// The method is a user's that does not say what it needs.
+    pub(crate) fn may_need_anything(&self) -> bool {
+        !self.index_matched && self.method.source.head().needs.is_none()
+    }
+
+    /// Cracks are drawn whose sheets end at the body's surface by themselves.
+    pub(crate) fn draws_clipped_cracks(&self) -> bool {
+        self.settings.word_if_any("clip") == Some("mesh")
+            && (self.shows_cracks() || self.shows_air())
+            && !self.is_off_screen()
+    }
+
+    /// An intermediate buffer was asked for.
+    pub(crate) fn asked_for(&self, name: &str) -> bool {
+        self.request.view.layers.iter().any(|layer| match layer {
+            LayerName::Buffer(buffer) if buffer == "thickness" => name.ends_with("_depth"),
+            LayerName::Buffer(buffer) => buffer == name,
+            _ => false,
+        })
+    }
 }

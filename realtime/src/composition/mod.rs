@@ -3,4 +3,5 @@
 
 pub(crate) mod chosen;
 pub(crate) mod inputs;
+pub(crate) mod layer_images;
 pub(crate) mod outputs;

@@ -1,8 +1,8 @@
 //! The images that a request comes to.
 
+use super::layer_images::LayerImage;
 use crate::Error;
 use crate::methods::Method;
-use crate::passes::peel::LayerPart;
 use crate::request::Request;
 use scenes::{Camera, LayerName, Scene};
 
@@ -57,28 +57,16 @@ pub(crate) fn outputs(method: &Method, request: &Request) -> Result<Vec<&'static
     check_size(request)?;
     let mut outputs = Vec::new();
     for layer in &request.view.layers {
-        let output = match layer {
-            LayerName::Radiance | LayerName::Coverage => "radiance",
-            LayerName::Exit => "exit",
-            LayerName::First => "first",
-            LayerName::Hit2 => "hit2",
-            LayerName::Events | LayerName::Flags | LayerName::Path(_) => "count",
-            LayerName::Buffer(name)
-                if BUFFERS.contains(&name.as_str()) || LayerPart::named(name).is_some() =>
+        let row = SINGLE.iter().find(|row| (row.is)(layer));
+        let output = match (layer, row) {
+            (LayerName::Radiance | LayerName::Coverage, _) => "radiance",
+            (_, Some(row)) => row.output,
+            (LayerName::Buffer(name), _)
+                if BUFFERS.contains(&name.as_str()) || LayerImage::named(name).is_some() =>
             {
                 continue;
             }
-            other => {
-                return Err(Error::UnknownLayer {
-                    method: method.id.to_owned(),
-                    layer: other.to_string(),
-                    available: format!(
-                        "radiance, coverage, exit, first, hit2, events, flags, path.<medium>, {}, \
-                         layer_count, layer_depth.<n>, layer_normal.<n>, layer_facing.<n>",
-                        BUFFERS.join(", ")
-                    ),
-                });
-            }
+            (other, _) => return Err(unknown(method, other)),
         };
         if !outputs.contains(&output) {
             outputs.push(output);
@@ -86,3 +74,44 @@ pub(crate) fn outputs(method: &Method, request: &Request) -> Result<Vec<&'static
     }
     Ok(outputs)
 }
+
+fn unknown(method: &Method, layer: &LayerName) -> Error {
+    Error::UnknownLayer {
+        method: method.id.to_owned(),
+        layer: layer.to_string(),
+        available: format!(
+            "radiance, coverage, exit, first, hit2, events, flags, path.<medium>, {}, layer_count, \
+             layer_depth.<n>, layer_normal.<n>, layer_facing.<n>",
+            BUFFERS.join(", ")
+        ),
+    }
+}
+
+/// A layer that shading writes at pixel centres.
+pub(crate) struct Single {
+    pub(crate) is: fn(&LayerName) -> bool,
+    /// The image that holds it.
+    pub(crate) output: &'static str,
+    /// A single channel of it; else three make a vector, zero where the fourth is.
+    pub(crate) channel: Option<usize>,
+    /// Local space; else a direction in world axes.
+    pub(crate) is_position: bool,
+}
+
+const fn vector(is: fn(&LayerName) -> bool, output: &'static str, is_position: bool) -> Single {
+    Single { is, output, channel: None, is_position }
+}
+
+const fn count(is: fn(&LayerName) -> bool, channel: usize) -> Single {
+    Single { is, output: "count", channel: Some(channel), is_position: false }
+}
+
+/// One row per layer.
+pub(crate) const SINGLE: [Single; 6] = [
+    vector(|layer| matches!(layer, LayerName::Exit), "exit", false),
+    vector(|layer| matches!(layer, LayerName::First), "first", false),
+    vector(|layer| matches!(layer, LayerName::Hit2), "hit2", true),
+    count(|layer| matches!(layer, LayerName::Events), 0),
+    count(|layer| matches!(layer, LayerName::Flags), 1),
+    count(|layer| matches!(layer, LayerName::Path(_)), 2),
+];

@@ -38,7 +38,7 @@ pub(crate) enum Draw {
 
 /// Shapes that one pass draws.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Parts {
+pub(crate) struct Drawables {
     pub(crate) corners: Vec<Corner>,
     pub(crate) draws: Vec<Draw>,
     /// Some mesh has interpolated normals.
@@ -51,7 +51,7 @@ pub(crate) struct Parts {
 }
 
 /// A shape, where it is, and the number that the shaders know it by.
-pub(crate) struct Placed<'a> {
+pub(crate) struct PlacedShape<'a> {
     pub(crate) shape: &'a Shape,
     pub(crate) world_from_object: DAffine3,
     pub(crate) normals: Normals,
@@ -59,7 +59,7 @@ pub(crate) struct Placed<'a> {
     pub(crate) number: u32,
 }
 
-impl Parts {
+impl Drawables {
     pub(crate) fn new(centre: DVec3) -> Self {
         Self { centre, ..Self::default() }
     }
@@ -69,7 +69,7 @@ impl Parts {
     }
 
     /// Adds a shape. `wide_m`: half the width of what is infinitely wide.
-    pub(crate) fn add(&mut self, placed: &Placed<'_>, wide_m: f64) {
+    pub(crate) fn add(&mut self, placed: &PlacedShape<'_>, wide_m: f64) {
         let size = |v: DVec3| v.as_vec3().extend(0.0);
         let (formula, size_m) = match placed.shape {
             Shape::Mesh(mesh) => return self.add_mesh(mesh, placed),
@@ -88,7 +88,7 @@ impl Parts {
         self.draws.push(Draw::Analytic(formula, at, size_m, number));
     }
 
-    fn add_mesh(&mut self, mesh: &Mesh, object: &Placed<'_>) {
+    fn add_mesh(&mut self, mesh: &Mesh, object: &PlacedShape<'_>) {
         let (placed, number) = (object.world_from_object, object.number);
         let start = self.corners.len() as u32;
         let smooth = object.normals == Normals::Smooth;

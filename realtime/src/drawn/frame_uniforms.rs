@@ -2,9 +2,11 @@
 
 use crate::drawn::geometry::Geometry;
 use crate::drawn::uniforms::{self, Bodies, MAX_BODIES};
-use crate::gpu::recorder::Allocator;
-use crate::gpu::resources::Resources;
+use crate::gpu::allocator::Allocator;
+use crate::gpu::resources::Outputs;
 use crate::{Error, Gpu};
+use encase::ShaderType;
+use glam::{DMat4, DVec3, Mat4, Vec2, Vec3, Vec4};
 
 use scenes::{Camera, Environment};
 
@@ -18,29 +20,45 @@ pub(crate) struct Viewed<'a> {
     pub(crate) resolution_px: [u32; 2],
 }
 
+/// Mirrors `Frame` in frame.wgsl.
+#[derive(Clone, Debug, ShaderType)]
+pub(crate) struct FrameUniform {
+    pub(crate) clip_from_lc: Mat4,
+    pub(crate) eye_lc: Vec3,
+    pub(crate) right_ws: Vec3,
+    pub(crate) up_ws: Vec3,
+    pub(crate) forward_ws: Vec3,
+    pub(crate) half_extent: Vec2,
+    pub(crate) resolution_px: Vec2,
+    pub(crate) eta_outside: f32,
+    pub(crate) radius_m: f32,
+    pub(crate) layer_capacity: u32,
+    pub(crate) middle_lc: Vec3,
+}
+
 /// Writes the bodies' numbers, and the frame's before layers are counted.
 pub(crate) fn upload_numbers(
     allocator: &Allocator<'_>,
     view: &Viewed<'_>,
-    resources: &mut Resources,
-) -> Result<(), Error> {
+) -> Result<Outputs, Error> {
+    let mut outputs = Outputs::default();
     let geometry = view.geometry;
     let uniform = wgpu::BufferUsages::UNIFORM;
     let frame = frame_bytes(view, 0);
-    resources.buffer("frame", allocator.filled("frame", &frame, uniform)?);
+    outputs.buffer("frame", allocator.filled("frame", &frame, uniform)?);
     let mut list = [uniforms::Body::default(); MAX_BODIES];
     list[..geometry.media.len()].copy_from_slice(&geometry.media);
     // Numbers that no body has.
     list[geometry.media.len()..].iter_mut().for_each(|body| body.solid = u32::MAX - 1);
     let bodies = uniforms::bytes_of(&Bodies { list });
-    resources.buffer("bodies", allocator.filled("bodies", &bodies, uniform)?);
+    outputs.buffer("bodies", allocator.filled("bodies", &bodies, uniform)?);
     if let Some(bumps) = &geometry.bumps {
         let mut list = [uniforms::Bump::default(); MAX_BODIES];
         list.copy_from_slice(bumps);
         let bytes = uniforms::bytes_of(&uniforms::Bumps { list });
-        resources.buffer("bumps", allocator.filled("bumps", &bytes, uniform)?);
+        outputs.buffer("bumps", allocator.filled("bumps", &bytes, uniform)?);
     }
-    Ok(())
+    Ok(outputs)
 }
 
 /// Writes how many layers there is room for into the frame's numbers.
@@ -48,7 +66,7 @@ pub(crate) fn set_layer_capacity(
     gpu: &Gpu,
     view: &Viewed<'_>,
     layer_capacity: u32,
-    resources: &Resources,
+    resources: &Outputs,
 ) {
     let bytes = frame_bytes(view, layer_capacity);
     gpu.queue.write_buffer(resources.stored("frame"), 0, &bytes);
@@ -59,12 +77,83 @@ fn frame_bytes(view: &Viewed<'_>, layer_capacity: u32) -> Vec<u8> {
 }
 
 /// The camera's numbers, as the shaders see them.
-pub(crate) fn numbers(view: &Viewed<'_>, layer_capacity: u32) -> uniforms::Frame {
+pub(crate) fn numbers(view: &Viewed<'_>, layer_capacity: u32) -> FrameUniform {
     let Viewed { geometry, camera, eta_outside, resolution_px, .. } = *view;
     let (centre, radius_m) = (geometry.centre, geometry.radius_m);
-    uniforms::Frame {
+    FrameUniform {
         layer_capacity,
         middle_lc: geometry.middle_lc,
-        ..uniforms::Frame::new(camera, resolution_px, centre, radius_m, eta_outside)
+        ..FrameUniform::new(camera, resolution_px, centre, radius_m, eta_outside)
+    }
+}
+
+impl FrameUniform {
+    /// The camera at a resolution, seen from `centre` (world space, metres).
+    pub(crate) fn new(
+        camera: &Camera,
+        resolution_px: [u32; 2],
+        centre: DVec3,
+        radius_m: f64,
+        eta_outside: f64,
+    ) -> Self {
+        let basis = camera.basis();
+        let middle_m = (centre - camera.eye).dot(basis.forward);
+        // Planes fitted to the bodies; never behind the eye.
+        let near_m = (middle_m - 1.001 * radius_m).max(1e-3 * radius_m);
+        let far_m = (middle_m + 1.001 * radius_m).max(2.0 * near_m);
+        let clip_from_lc = camera.clip_from_view(near_m, far_m)
+            * camera.view_from_world()
+            * DMat4::from_translation(centre);
+        Self {
+            clip_from_lc: clip_from_lc.as_mat4(),
+            eye_lc: (camera.eye - centre).as_vec3(),
+            right_ws: basis.right.as_vec3(),
+            up_ws: basis.up.as_vec3(),
+            forward_ws: basis.forward.as_vec3(),
+            half_extent: camera.half_extent().as_vec2(),
+            resolution_px: Vec2::from_array(resolution_px.map(|n| n as f32)),
+            eta_outside: eta_outside as f32,
+            radius_m: radius_m as f32,
+            layer_capacity: 0,
+            middle_lc: Vec3::ZERO,
+        }
+    }
+
+    /// One face of a cube about a point (local space), seen at a right angle
+    /// and `margin` texels more on every side. Rows run down the face and
+    /// columns to its right, as WebGPU numbers them: a mirrored camera.
+    pub(crate) fn of_cube_face(
+        &self,
+        face: usize,
+        eye_lc: Vec3,
+        size_px: u32,
+        margin: u32,
+    ) -> Self {
+        const FACES: [[Vec3; 3]; 6] = [
+            [Vec3::NEG_Z, Vec3::Y, Vec3::X],
+            [Vec3::Z, Vec3::Y, Vec3::NEG_X],
+            [Vec3::X, Vec3::NEG_Z, Vec3::Y],
+            [Vec3::X, Vec3::Z, Vec3::NEG_Y],
+            [Vec3::X, Vec3::Y, Vec3::Z],
+            [Vec3::NEG_X, Vec3::Y, Vec3::NEG_Z],
+        ];
+        let [right, up, forward] = FACES[face];
+        let edge_px = (size_px + 2 * margin) as f32;
+        let extent = edge_px / size_px as f32;
+        let (near_m, far_m) = (1e-3 * self.radius_m, 4.0 * self.radius_m);
+        let depth = far_m / (far_m - near_m);
+        let view = |axis: Vec3| axis.extend(-axis.dot(eye_lc));
+        let z = view(forward) * depth - Vec4::W * near_m * depth;
+        let rows = [view(right) / extent, view(up) / extent, z, view(forward)];
+        Self {
+            clip_from_lc: Mat4::from_cols_array_2d(&rows.map(|row| row.to_array())).transpose(),
+            eye_lc,
+            right_ws: right,
+            up_ws: up,
+            forward_ws: forward,
+            half_extent: Vec2::splat(extent),
+            resolution_px: Vec2::splat(edge_px),
+            ..self.clone()
+        }
     }
 }

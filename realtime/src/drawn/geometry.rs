@@ -1,7 +1,7 @@
 //! What one frame shows: the bodies, what is inside them, and what is around.
 
 use crate::Error;
-use crate::drawn::drawables::{Parts, Placed};
+use crate::drawn::drawables::{Drawables, PlacedShape};
 use crate::drawn::uniforms::{Body, Bump, Light, MAX_BODIES, MAX_LIGHTS, Paint};
 use glam::{DVec3, Vec3};
 use scenes::scene::Normals;
@@ -11,23 +11,23 @@ use scenes::{Object, Scene, Shape, Surface};
 #[derive(Clone, Debug)]
 pub(crate) struct Geometry {
     /// Transparent bodies.
-    pub(crate) bodies: Parts,
+    pub(crate) bodies: Drawables,
     /// Their numbers, in the same order.
     pub(crate) media: Vec<Body>,
     /// Bump maps of the bodies, if any has one.
     pub(crate) bumps: Option<Vec<Bump>>,
     /// Opaque surfaces around them.
-    pub(crate) opaque: Parts,
+    pub(crate) opaque: Drawables,
     /// Those of them that the cube about the middle shows: all but solids that the
     /// middle lies in, which would hide everything else.
-    pub(crate) opaque_in_cube: Parts,
+    pub(crate) opaque_in_cube: Drawables,
     pub(crate) paints: Vec<Paint>,
     pub(crate) lights: Vec<Light>,
     /// Sheets of cracks inside the bodies, not clipped.
-    pub(crate) cracks: Parts,
+    pub(crate) cracks: Drawables,
     /// Planes of air inside the bodies; their normals hold positions on the
     /// plane, -0.5 to 0.5.
-    pub(crate) air: Parts,
+    pub(crate) air: Drawables,
     /// Unit vector towards the light that cracks glitter in.
     pub(crate) towards_light_ws: Vec3,
     /// Local origin in world space, metres.
@@ -63,24 +63,18 @@ impl Geometry {
         at_most("bodies", solids.len(), MAX_BODIES)?;
         at_most("opaque objects", opaque.len(), MAX_BODIES)?;
         at_most("lights", scene.lights.len(), MAX_LIGHTS)?;
-        let [low, high] = scene.bounds();
-        let bounded = low.is_finite() && high.is_finite();
-        let (centre, radius_m) = if bounded {
-            (0.5 * (low + high), 0.5 * (high - low).length())
-        } else {
-            (scene.camera.target, (scene.camera.target - scene.camera.eye).length() * 10.0)
-        };
+        let (centre, radius_m) = extent(scene);
         let moves = |object: &&Object| object.motion.is_some() || object.deform.is_some();
         let mut geometry = Self {
-            bodies: Parts::new(centre),
+            bodies: Drawables::new(centre),
             media: Vec::new(),
             bumps: None,
-            opaque: Parts::new(centre),
-            opaque_in_cube: Parts::new(centre),
+            opaque: Drawables::new(centre),
+            opaque_in_cube: Drawables::new(centre),
             paints: Vec::new(),
             lights: scene.lights.iter().map(|light| Light::new(light, centre)).collect(),
-            cracks: Parts::new(centre),
-            air: Parts::new(centre),
+            cracks: Drawables::new(centre),
+            air: Drawables::new(centre),
             towards_light_ws: towards_light(scene),
             centre,
             radius_m: radius_m.max(f64::MIN_POSITIVE),
@@ -118,7 +112,8 @@ impl Geometry {
         let number = self.media.len() as u32;
         let shape = object.shape_at(time_s);
         let world_from_object = object.world_from_object_at(time_s);
-        let placed = Placed { shape: &shape, world_from_object, normals: object.normals, number };
+        let placed =
+            PlacedShape { shape: &shape, world_from_object, normals: object.normals, number };
         self.outlines.push(corners(shape.bounds()).map(|p| world_from_object.transform_point3(p)));
         self.bodies.add(&placed, 1e4 * self.radius_m);
         if let Some(bump) = &object.bump {
@@ -131,13 +126,14 @@ impl Geometry {
     }
 
     /// Cracks and air.
-    fn add_inside(&mut self, object: &Object, body: &Placed<'_>) {
+    fn add_inside(&mut self, object: &Object, body: &PlacedShape<'_>) {
         let bounds = body.shape.bounds();
         let bounded = bounds.iter().all(|corner| corner.is_finite());
         if let Some(crack) = object.crack.as_ref().filter(|_| bounded) {
             for sheet in scenes::crack::cracks(crack, bounds) {
                 let shape = Shape::Mesh(sheet);
-                self.cracks.add(&Placed { shape: &shape, normals: Normals::Smooth, ..*body }, 0.0);
+                self.cracks
+                    .add(&PlacedShape { shape: &shape, normals: Normals::Smooth, ..*body }, 0.0);
             }
         }
         if let Some(air) = object.air.as_ref().filter(|_| bounded) {
@@ -152,7 +148,7 @@ impl Geometry {
     /// without triangles keep theirs whole.
     pub(crate) fn clip_cracks(&mut self, scene: &Scene, frame: u32) {
         let time_s = scene.time_s(frame);
-        self.cracks = Parts::new(self.centre);
+        self.cracks = Drawables::new(self.centre);
         let solids = scene.objects.iter().filter(|object| is_solid(object));
         for (object, number) in solids.zip(1..) {
             let shape = object.shape_at(time_s);
@@ -165,7 +161,8 @@ impl Geometry {
                 };
                 let sheet = Shape::Mesh(cut);
                 let normals = Normals::Smooth;
-                self.cracks.add(&Placed { shape: &sheet, world_from_object, normals, number }, 0.0);
+                self.cracks
+                    .add(&PlacedShape { shape: &sheet, world_from_object, normals, number }, 0.0);
             }
         }
     }
@@ -175,7 +172,8 @@ impl Geometry {
         let world_from_object = object.world_from_object_at(time_s);
         self.paints.push(Paint::new(&object.surface, &world_from_object, self.centre));
         let number = self.paints.len() as u32;
-        let placed = Placed { shape: &shape, world_from_object, normals: object.normals, number };
+        let placed =
+            PlacedShape { shape: &shape, world_from_object, normals: object.normals, number };
         self.opaque.add(&placed, 1e4 * self.radius_m);
         let middle = self.centre + self.middle_lc.as_dvec3();
         let at = world_from_object.inverse().transform_point3(middle);
@@ -186,14 +184,22 @@ impl Geometry {
     }
 }
 
-fn at_most(what: &str, count: usize, most: usize) -> Result<(), Error> {
+/// Centre (world space) and radius of what is drawn, metres; of a scene without
+/// bounds, about what the camera looks at.
+fn extent(scene: &Scene) -> (DVec3, f64) {
+    let [low, high] = scene.bounds();
+    if low.is_finite() && high.is_finite() {
+        (0.5 * (low + high), 0.5 * (high - low).length())
+    } else {
+        (scene.camera.target, (scene.camera.target - scene.camera.eye).length() * 10.0)
+    }
+}
+
+fn at_most(what: &'static str, count: usize, most: usize) -> Result<(), Error> {
     if count <= most {
         return Ok(());
     }
-    Err(Error::NotYet {
-        what: format!("a scene of {count} {what} (at most {most})"),
-        method: "any".to_owned(),
-    })
+    Err(Error::TooMany { what, count, most })
 }
 
 /// True if a point (object space) lies in a solid that is too small to be a room

@@ -1,28 +1,13 @@
-//! Numbers as the shaders see them. This and `geometry` are where f64 becomes
-//! f32, after everything has been moved to the centre of the scene's bodies.
+//! Numbers as the shaders see them. This folder is where f64 becomes f32, after
+//! everything has been moved to the centre of the scene's bodies; the only other
+//! place is the environment's radiance, which has no position.
 
 use encase::{ShaderType, UniformBuffer};
-use glam::{DAffine3, DMat4, DVec3, Mat4, Vec2, Vec3, Vec4};
-use scenes::{Camera, Surface};
+use glam::{DAffine3, DMat4, DVec3, Mat4, Vec3, Vec4};
+use scenes::Surface;
 
 /// Most bodies a scene may show.
 pub(crate) const MAX_BODIES: usize = 16;
-
-/// Mirrors `Frame` in frame.wgsl.
-#[derive(Clone, Debug, ShaderType)]
-pub(crate) struct Frame {
-    pub(crate) clip_from_lc: Mat4,
-    pub(crate) eye_lc: Vec3,
-    pub(crate) right_ws: Vec3,
-    pub(crate) up_ws: Vec3,
-    pub(crate) forward_ws: Vec3,
-    pub(crate) half_extent: Vec2,
-    pub(crate) resolution_px: Vec2,
-    pub(crate) eta_outside: f32,
-    pub(crate) radius_m: f32,
-    pub(crate) layer_capacity: u32,
-    pub(crate) middle_lc: Vec3,
-}
 
 /// Mirrors `Body` in frame.wgsl.
 #[derive(Clone, Copy, Debug, Default, ShaderType)]
@@ -165,79 +150,6 @@ pub(crate) fn bytes_of<T: ShaderType + encase::internal::WriteInto>(value: &T) -
     buffer.into_inner()
 }
 
-impl Frame {
-    /// The camera at a resolution, seen from `centre` (world space, metres).
-    pub(crate) fn new(
-        camera: &Camera,
-        resolution_px: [u32; 2],
-        centre: DVec3,
-        radius_m: f64,
-        eta_outside: f64,
-    ) -> Self {
-        let basis = camera.basis();
-        let middle_m = (centre - camera.eye).dot(basis.forward);
-        // Planes fitted to the bodies; never behind the eye.
-        let near_m = (middle_m - 1.001 * radius_m).max(1e-3 * radius_m);
-        let far_m = (middle_m + 1.001 * radius_m).max(2.0 * near_m);
-        let clip_from_lc = camera.clip_from_view(near_m, far_m)
-            * camera.view_from_world()
-            * DMat4::from_translation(centre);
-        Self {
-            clip_from_lc: clip_from_lc.as_mat4(),
-            eye_lc: (camera.eye - centre).as_vec3(),
-            right_ws: basis.right.as_vec3(),
-            up_ws: basis.up.as_vec3(),
-            forward_ws: basis.forward.as_vec3(),
-            half_extent: camera.half_extent().as_vec2(),
-            resolution_px: Vec2::from_array(resolution_px.map(|n| n as f32)),
-            eta_outside: eta_outside as f32,
-            radius_m: radius_m as f32,
-            layer_capacity: 0,
-            middle_lc: Vec3::ZERO,
-        }
-    }
-}
-
-impl Frame {
-    /// One face of a cube about a point (local space), seen at a right angle
-    /// and `margin` texels more on every side. Rows run down the face and
-    /// columns to its right, as WebGPU numbers them: a mirrored camera.
-    pub(crate) fn of_cube_face(
-        &self,
-        face: usize,
-        eye_lc: Vec3,
-        size_px: u32,
-        margin: u32,
-    ) -> Self {
-        const FACES: [[Vec3; 3]; 6] = [
-            [Vec3::NEG_Z, Vec3::Y, Vec3::X],
-            [Vec3::Z, Vec3::Y, Vec3::NEG_X],
-            [Vec3::X, Vec3::NEG_Z, Vec3::Y],
-            [Vec3::X, Vec3::Z, Vec3::NEG_Y],
-            [Vec3::X, Vec3::Y, Vec3::Z],
-            [Vec3::NEG_X, Vec3::Y, Vec3::NEG_Z],
-        ];
-        let [right, up, forward] = FACES[face];
-        let edge_px = (size_px + 2 * margin) as f32;
-        let extent = edge_px / size_px as f32;
-        let (near_m, far_m) = (1e-3 * self.radius_m, 4.0 * self.radius_m);
-        let depth = far_m / (far_m - near_m);
-        let view = |axis: Vec3| axis.extend(-axis.dot(eye_lc));
-        let z = view(forward) * depth - Vec4::W * near_m * depth;
-        let rows = [view(right) / extent, view(up) / extent, z, view(forward)];
-        Self {
-            clip_from_lc: Mat4::from_cols_array_2d(&rows.map(|row| row.to_array())).transpose(),
-            eye_lc,
-            right_ws: right,
-            up_ws: up,
-            forward_ws: forward,
-            half_extent: Vec2::splat(extent),
-            resolution_px: Vec2::splat(edge_px),
-            ..self.clone()
-        }
-    }
-}
-
 impl Analytic {
     pub(crate) fn new(
         world_from_object: &DAffine3,
@@ -261,6 +173,7 @@ impl Analytic {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test that cannot read the shader must fail")]
     use super::*;
+    use crate::drawn::frame_uniforms::FrameUniform;
 
     type Layout = (Vec<(String, u32)>, u32);
 
@@ -290,12 +203,12 @@ mod tests {
         }};
     }
 
-    const RUST: &str = include_str!("uniforms.rs");
+    const RUST: &str = concat!(include_str!("uniforms.rs"), include_str!("frame_uniforms.rs"));
     const FRAME: &str = include_str!("../shaders/core/frame.wgsl");
 
     #[test]
     fn uniforms_have_the_same_names_order_and_size_in_rust_and_in_wgsl() {
-        assert_eq!(in_rust!(Frame), in_wgsl(FRAME, "Frame"));
+        assert_eq!(in_rust!(FrameUniform), in_wgsl(FRAME, "Frame"));
         assert_eq!(in_rust!(Body), in_wgsl(FRAME, "Body"));
         let analytic = include_str!("../shaders/raster/raster_analytic.wgsl");
         let analytic = &analytic[..analytic.find("@group").unwrap()];
@@ -306,6 +219,6 @@ mod tests {
     fn exchanged_members_are_noticed() {
         let exchanged = FRAME.replace("up_ws", "was_up").replace("right_ws", "up_ws");
         let exchanged = exchanged.replace("was_up", "right_ws");
-        assert_ne!(in_rust!(Frame), in_wgsl(&exchanged, "Frame"));
+        assert_ne!(in_rust!(FrameUniform), in_wgsl(&exchanged, "Frame"));
     }
 }

@@ -1,13 +1,13 @@
 //! The environment's texels on the GPU: those of the scene's cube, nothing else.
 
-use crate::gpu::recorder::Allocator;
-use crate::gpu::resources::Resources;
+use crate::gpu::allocator::Allocator;
+use crate::gpu::resources::Outputs;
 use crate::wgsl::Shader;
 use crate::{Error, Gpu};
 
 use glam::DVec3;
-use scenes::Environment;
-use wgpu::TextureUsages;
+use scenes::{Cube, Environment};
+use wgpu::{TextureFormat, TextureUsages, TextureViewDimension};
 
 /// Uploads what a shader reads: one number, the bordered faces, or a
 /// cube for the hardware's sampler.
@@ -16,53 +16,55 @@ pub(crate) fn upload_environment(
     allocator: &Allocator<'_>,
     (shader, entry_point): (&Shader, &str),
     environment: &Environment,
-    resources: &mut Resources,
-) -> Result<(), Error> {
-    let reads = |name| shader.uses(&[entry_point], name);
+) -> Result<Outputs, Error> {
+    let mut outputs = Outputs::default();
     match environment {
         Environment::Uniform(radiance) => {
             let DVec3 { x, y, z } = *radiance;
-            let bytes: Vec<u8> = [x as f32, y as f32, z as f32, 1.0]
-                .into_iter()
-                .flat_map(f32::to_le_bytes)
-                .collect();
-            let buffer =
-                allocator.filled("uniform_radiance", &bytes, wgpu::BufferUsages::UNIFORM)?;
-            resources.buffer("uniform_radiance", buffer);
+            let numbers = [x as f32, y as f32, z as f32, 1.0];
+            let bytes: Vec<u8> = numbers.into_iter().flat_map(f32::to_le_bytes).collect();
+            let uniform = wgpu::BufferUsages::UNIFORM;
+            let buffer = allocator.filled("uniform_radiance", &bytes, uniform)?;
+            outputs.buffer("uniform_radiance", buffer);
         }
         Environment::Map(map) => {
-            let border = u32::from(reads("environment_faces"));
-            let name = if border == 1 { "environment_faces" } else { "environment_cube" };
-            let edge = map.cube.size_px + 2 * border;
-            let usage = TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST;
-            let texture = allocator.texture(
-                name,
-                [edge, edge, 6],
-                wgpu::TextureFormat::Rgba32Float,
-                usage,
-            )?;
-            let texels =
-                if border == 1 { map.cube.texels.clone() } else { without_border(&map.cube) };
-            gpu.queue.write_texture(
-                texture.as_image_copy(),
-                bytemuck::cast_slice(&texels),
-                wgpu::TexelCopyBufferLayout {
-                    offset: 0,
-                    bytes_per_row: Some(16 * edge),
-                    rows_per_image: Some(edge),
-                },
-                wgpu::Extent3d { width: edge, height: edge, depth_or_array_layers: 6 },
-            );
-            let dimension = if border == 1 {
-                wgpu::TextureViewDimension::D2Array
+            let bordered = shader.uses(&[entry_point], "environment_faces");
+            let (name, dimension) = if bordered {
+                ("environment_faces", TextureViewDimension::D2Array)
             } else {
-                wgpu::TextureViewDimension::Cube
+                ("environment_cube", TextureViewDimension::Cube)
             };
-            resources.texture_as(name, texture, dimension);
-            resources.sampler("environment_linear", linear_sampler(gpu));
+            outputs.texture_as(name, upload(gpu, allocator, name, &map.cube, bordered)?, dimension);
+            outputs.sampler("environment_linear", linear_sampler(gpu));
         }
     }
-    Ok(())
+    Ok(outputs)
+}
+
+/// The faces of a cube, with or without the texels of their neighbours.
+fn upload(
+    gpu: &Gpu,
+    allocator: &Allocator<'_>,
+    name: &str,
+    cube: &Cube,
+    bordered: bool,
+) -> Result<wgpu::Texture, Error> {
+    let edge = cube.size_px + 2 * u32::from(bordered);
+    let (size, format) = ([edge, edge, 6], TextureFormat::Rgba32Float);
+    let usage = TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST;
+    let texture = allocator.texture(name, size, format, usage)?;
+    let texels = if bordered { cube.texels.clone() } else { without_border(cube) };
+    gpu.queue.write_texture(
+        texture.as_image_copy(),
+        bytemuck::cast_slice(&texels),
+        wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(16 * edge),
+            rows_per_image: Some(edge),
+        },
+        wgpu::Extent3d { width: edge, height: edge, depth_or_array_layers: 6 },
+    );
+    Ok(texture)
 }
 
 pub(crate) fn linear_sampler(gpu: &Gpu) -> wgpu::Sampler {
@@ -73,7 +75,7 @@ pub(crate) fn linear_sampler(gpu: &Gpu) -> wgpu::Sampler {
     })
 }
 
-fn without_border(cube: &scenes::Cube) -> Vec<[f32; 4]> {
+fn without_border(cube: &Cube) -> Vec<[f32; 4]> {
     let stride = cube.size_px as usize + 2;
     let inner = 1..=cube.size_px as usize;
     let rows = (0..6).flat_map(|face| inner.clone().map(move |y| (face * stride + y) * stride));

@@ -1,5 +1,6 @@
 //! Adapters and devices: finding one, opening it, and saying which it is.
 
+pub(crate) mod allocator;
 pub(crate) mod environment_upload;
 pub(crate) mod readback;
 pub(crate) mod recorder;

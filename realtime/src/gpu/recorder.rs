@@ -1,107 +1,8 @@
-//! The wrapper around wgpu's encoder and allocator. It writes down what was
-//! executed and allocated, by itself: the planner has no say here, so that a
-//! plan and a run can disagree and a test can notice.
+//! The wrapper around wgpu's encoder. It writes down what was executed, as the
+//! allocator does what was allocated, by itself: the planner has no say here, so
+//! that a plan and a run can disagree and a test can notice.
 
 use crate::{Error, Gpu};
-
-use scenes::plan::Buffer;
-use std::cell::RefCell;
-
-/// Makes memory and remembers how much.
-pub(crate) struct Allocator<'g> {
-    pub(crate) gpu: &'g Gpu,
-    allocated: RefCell<Vec<Buffer>>,
-}
-
-impl<'g> Allocator<'g> {
-    pub(crate) fn new(gpu: &'g Gpu) -> Self {
-        Self { gpu, allocated: RefCell::new(Vec::new()) }
-    }
-
-    pub(crate) fn allocated(&self) -> Vec<Buffer> {
-        self.allocated.borrow().clone()
-    }
-
-    fn note(&self, name: &str, bytes: u64) {
-        self.allocated.borrow_mut().push(Buffer { name: name.to_owned(), bytes });
-    }
-
-    pub(crate) fn texture(
-        &self,
-        name: &str,
-        size_px: [u32; 3],
-        format: wgpu::TextureFormat,
-        usage: wgpu::TextureUsages,
-    ) -> Result<wgpu::Texture, Error> {
-        let limit = self.gpu.device.limits().max_texture_dimension_2d;
-        let largest = size_px[0].max(size_px[1]);
-        if largest > limit {
-            return Err(Error::Limit {
-                what: format!("texture {name}"),
-                needed: u64::from(largest),
-                adapter: self.gpu.info().name.clone(),
-                allowed: u64::from(limit),
-                advice: "lower the resolution or the number of positions per pixel".to_owned(),
-            });
-        }
-        let texel = u64::from(format.block_copy_size(Some(wgpu::TextureAspect::All)).unwrap_or(4));
-        self.note(name, size_px.iter().map(|n| u64::from(*n)).product::<u64>() * texel);
-        Ok(self.gpu.device.create_texture(&wgpu::TextureDescriptor {
-            label: Some(name),
-            size: wgpu::Extent3d {
-                width: size_px[0],
-                height: size_px[1],
-                depth_or_array_layers: size_px[2],
-            },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format,
-            usage,
-            view_formats: &[],
-        }))
-    }
-
-    pub(crate) fn buffer(
-        &self,
-        name: &str,
-        bytes: u64,
-        usage: wgpu::BufferUsages,
-    ) -> Result<wgpu::Buffer, Error> {
-        let limit = self.gpu.device.limits().max_buffer_size;
-        if bytes > limit {
-            return Err(Error::Limit {
-                what: format!("buffer {name}"),
-                needed: bytes,
-                adapter: self.gpu.info().name.clone(),
-                allowed: limit,
-                advice: "use fewer triangles, layers or pixels".to_owned(),
-            });
-        }
-        self.note(name, bytes);
-        let descriptor = wgpu::BufferDescriptor {
-            label: Some(name),
-            size: bytes.next_multiple_of(4).max(16),
-            usage,
-            mapped_at_creation: false,
-        };
-        Ok(self.gpu.device.create_buffer(&descriptor))
-    }
-
-    pub(crate) fn filled(
-        &self,
-        name: &str,
-        contents: &[u8],
-        usage: wgpu::BufferUsages,
-    ) -> Result<wgpu::Buffer, Error> {
-        let buffer =
-            self.buffer(name, contents.len() as u64, usage | wgpu::BufferUsages::COPY_DST)?;
-        let mut padded = contents.to_vec();
-        padded.resize(contents.len().next_multiple_of(4), 0);
-        self.gpu.queue.write_buffer(&buffer, 0, &padded);
-        Ok(buffer)
-    }
-}
 
 /// Records one frame.
 pub(crate) struct Recorder<'g> {
@@ -146,24 +47,14 @@ impl<'g> Recorder<'g> {
     pub(crate) fn raster(
         &mut self,
         name: &str,
-        colours: &[(&wgpu::TextureView, Option<wgpu::Color>)],
+        colours: &[Option<(&wgpu::TextureView, Option<wgpu::Color>)>],
         depth: Option<(&wgpu::TextureView, f32)>,
         draw: impl FnOnce(&mut wgpu::RenderPass<'_>),
     ) {
         let query = self.begin(name);
         let attachments: Vec<_> = colours
             .iter()
-            .map(|(view, clear)| {
-                Some(wgpu::RenderPassColorAttachment {
-                    view,
-                    depth_slice: None,
-                    resolve_target: None,
-                    ops: wgpu::Operations {
-                        load: clear.map_or(wgpu::LoadOp::Load, wgpu::LoadOp::Clear),
-                        store: wgpu::StoreOp::Store,
-                    },
-                })
-            })
+            .map(|colour| colour.map(|(view, clear)| attached(view, clear)))
             .collect();
         let mut pass = self.encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some(name),
@@ -248,4 +139,14 @@ impl<'g> Recorder<'g> {
         };
         Ok(Executed { passes: self.executed, timestamp_ms, wall_ms })
     }
+}
+
+/// A colour that is cleared before a pass, or kept.
+fn attached(
+    view: &wgpu::TextureView,
+    clear: Option<wgpu::Color>,
+) -> wgpu::RenderPassColorAttachment<'_> {
+    let load = clear.map_or(wgpu::LoadOp::Load, wgpu::LoadOp::Clear);
+    let ops = wgpu::Operations { load, store: wgpu::StoreOp::Store };
+    wgpu::RenderPassColorAttachment { view, depth_slice: None, resolve_target: None, ops }
 }

@@ -1,4 +1,4 @@
-//! Named resources, and bind groups made from what a shader really uses.
+//! What passes hand on, and bind groups made from what a shader really uses.
 
 use crate::wgsl::Shader;
 use crate::{Error, Gpu};
@@ -13,19 +13,19 @@ pub(crate) enum Resource {
     Sampler(wgpu::Sampler),
 }
 
-/// Resources by the name of their global in WGSL.
-#[derive(Default)]
-pub(crate) struct Resources(BTreeMap<String, Resource>);
+/// What a pass hands on: each by the name of the global that reads it in WGSL.
+#[derive(Clone, Default)]
+pub(crate) struct Outputs(BTreeMap<&'static str, Resource>);
 
-impl Resources {
-    pub(crate) fn texture(&mut self, name: &str, texture: wgpu::Texture) {
+impl Outputs {
+    pub(crate) fn texture(&mut self, name: &'static str, texture: wgpu::Texture) {
         let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
-        self.0.insert(name.to_owned(), Resource::Texture(texture, view));
+        self.0.insert(name, Resource::Texture(texture, view));
     }
 
     pub(crate) fn texture_as(
         &mut self,
-        name: &str,
+        name: &'static str,
         texture: wgpu::Texture,
         dimension: wgpu::TextureViewDimension,
     ) {
@@ -33,39 +33,46 @@ impl Resources {
             dimension: Some(dimension),
             ..Default::default()
         });
-        self.0.insert(name.to_owned(), Resource::Texture(texture, view));
+        self.0.insert(name, Resource::Texture(texture, view));
     }
 
     /// One layer of an array of images, to draw into.
-    pub(crate) fn layer(&mut self, name: &str, texture: &wgpu::Texture, layer: u32) {
+    pub(crate) fn layer(&mut self, name: &'static str, texture: &wgpu::Texture, layer: u32) {
         let view = texture.create_view(&wgpu::TextureViewDescriptor {
             dimension: Some(wgpu::TextureViewDimension::D2),
             base_array_layer: layer,
             array_layer_count: Some(1),
             ..Default::default()
         });
-        self.0.insert(name.to_owned(), Resource::Texture(texture.clone(), view));
+        self.0.insert(name, Resource::Texture(texture.clone(), view));
     }
 
-    /// Lets others use what is called `name`, if it is there.
-    pub(crate) fn share(&self, with: &mut Self, name: &str) {
-        if let Some(resource) = self.0.get(name) {
-            with.0.insert(name.to_owned(), resource.clone());
+    /// These, and of what was handed on before all that they do not hide.
+    pub(crate) fn over(mut self, before: &Self) -> Self {
+        for (name, resource) in &before.0 {
+            self.0.entry(name).or_insert_with(|| resource.clone());
         }
+        self
     }
 
-    pub(crate) fn buffer(&mut self, name: &str, buffer: wgpu::Buffer) {
-        self.0.insert(name.to_owned(), Resource::Buffer(buffer));
+    /// Only what has one of the names.
+    pub(crate) fn only(mut self, names: &[&str]) -> Self {
+        self.0.retain(|name, _| names.contains(name));
+        self
     }
 
-    pub(crate) fn sampler(&mut self, name: &str, sampler: wgpu::Sampler) {
-        self.0.insert(name.to_owned(), Resource::Sampler(sampler));
+    pub(crate) fn buffer(&mut self, name: &'static str, buffer: wgpu::Buffer) {
+        self.0.insert(name, Resource::Buffer(buffer));
     }
 
-    pub(crate) fn view(&self, name: &str) -> &wgpu::TextureView {
+    pub(crate) fn sampler(&mut self, name: &'static str, sampler: wgpu::Sampler) {
+        self.0.insert(name, Resource::Sampler(sampler));
+    }
+
+    pub(crate) fn view(&self, name: &str) -> Option<&wgpu::TextureView> {
         match self.0.get(name) {
-            Some(Resource::Texture(_, view)) => view,
-            _ => panic!("there is no texture {name}"),
+            Some(Resource::Texture(_, view)) => Some(view),
+            _ => None,
         }
     }
 
@@ -90,7 +97,6 @@ impl Resources {
         shader: &Shader,
         entry_points: &[&str],
         layout: &wgpu::BindGroupLayout,
-        own: &[(&str, &wgpu::Buffer)],
     ) -> Result<wgpu::BindGroup, Error> {
         let mut used: Vec<_> = entry_points.iter().flat_map(|entry| shader.used(entry)).collect();
         used.sort();
@@ -98,15 +104,11 @@ impl Resources {
         let mut entries = Vec::new();
         for global in &used {
             let name = global.name.strip_prefix("out_").unwrap_or(&global.name);
-            let private = own.iter().find(|(own_name, _)| *own_name == name);
-            let resource = match (private, self.0.get(&global.name).or_else(|| self.0.get(name))) {
-                (Some((_, buffer)), _) => buffer.as_entire_binding(),
-                (None, Some(Resource::Texture(_, view))) => {
-                    wgpu::BindingResource::TextureView(view)
-                }
-                (None, Some(Resource::Buffer(buffer))) => buffer.as_entire_binding(),
-                (None, Some(Resource::Sampler(sampler))) => wgpu::BindingResource::Sampler(sampler),
-                (None, None) => {
+            let resource = match self.0.get(global.name.as_str()).or_else(|| self.0.get(name)) {
+                Some(Resource::Texture(_, view)) => wgpu::BindingResource::TextureView(view),
+                Some(Resource::Buffer(buffer)) => buffer.as_entire_binding(),
+                Some(Resource::Sampler(sampler)) => wgpu::BindingResource::Sampler(sampler),
+                None => {
                     return Err(Error::Shader(format!(
                         "nothing is called {name}, which the shader reads"
                     )));

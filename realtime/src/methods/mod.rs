@@ -1,7 +1,8 @@
 //! The methods: what each is, where it was published, and what can be set.
 //!
-//! A method is one WGSL file and one row here. Which passes and buffers it
-//! needs is not written down anywhere: it is read from its WGSL.
+//! A method is one file of WGSL, whose head says what it is, and one row of the
+//! registry with its parameters. Which passes and buffers it needs is not written
+//! down anywhere: it is read from its WGSL.
 
 mod registry;
 mod settings;
@@ -11,7 +12,7 @@ pub use registry::METHODS;
 pub use settings::{Settings, Value};
 
 use crate::Error;
-use crate::wgsl::Piece;
+use crate::wgsl::{self, Source};
 
 /// One approximation.
 pub struct Method {
@@ -29,15 +30,9 @@ pub struct Method {
     pub parameters: &'static [Parameter],
     /// Traces red and blue light on ways of their own where a medium disperses.
     pub traces_colours: bool,
-    pub(crate) pieces: Pieces,
-}
-
-/// Where a method's WGSL comes from.
-pub(crate) enum Pieces {
-    /// From this crate.
-    Built(fn(&Settings) -> Result<Vec<Piece>, Error>),
-    /// From a user's file.
-    Read(Piece),
+    /// Its WGSL.
+    pub(crate) source: Source,
+    from_user: bool,
 }
 
 /// Something that can be set.
@@ -64,6 +59,8 @@ pub enum Kind {
         min: f64,
         /// Largest.
         max: f64,
+        /// Only whole numbers make sense.
+        whole: bool,
     },
     /// One of some words; the first is the default.
     Choice(&'static [&'static str]),
@@ -88,19 +85,32 @@ impl Method {
         })
     }
 
-    /// The WGSL of a method from a file.
+    /// The WGSL of a user's method.
     #[must_use]
     pub fn file_text(&self) -> Option<&str> {
-        match &self.pieces {
-            Pieces::Built(_) => None,
-            Pieces::Read(piece) => Some(&piece.text),
-        }
+        self.from_user.then_some(&self.source.text)
     }
 
-    pub(crate) fn pieces(&self, settings: &Settings) -> Result<Vec<Piece>, Error> {
-        match &self.pieces {
-            Pieces::Built(pieces) => pieces(settings),
-            Pieces::Read(piece) => Ok(vec![piece.clone()]),
+    /// A method of this crate, from the file that is called like it.
+    fn built_in(id: &'static str, parameters: &'static [Parameter]) -> Self {
+        let file = id.replace('-', "_");
+        let source = wgsl::named(&file).unwrap_or_else(|| panic!("there is no file {file}.wgsl"));
+        Self { parameters, ..Self::from_source(id, source) }
+    }
+
+    /// What the head of its file says.
+    fn from_source(id: &'static str, source: Source) -> Self {
+        let head = source.head();
+        Self {
+            id,
+            alias: head.alias.leak(),
+            title: head.title.leak(),
+            about: head.about.leak(),
+            bibtex: head.citation.leak(),
+            parameters: &[],
+            traces_colours: !head.one_way_for_all_colours,
+            source,
+            from_user: false,
         }
     }
 }

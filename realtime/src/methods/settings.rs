@@ -9,6 +9,8 @@ use std::collections::BTreeMap;
 pub enum Value {
     /// A number.
     Number(f64),
+    /// A whole number.
+    Whole(u32),
     /// One of the parameter's words.
     Word(&'static str),
 }
@@ -54,16 +56,22 @@ impl Settings {
     pub(crate) fn number(&self, name: &str) -> f64 {
         match self.0.get(name) {
             Some(Value::Number(value)) => *value,
+            Some(Value::Whole(value)) => f64::from(*value),
             other => panic!("parameter {name} is {other:?}, not a number"),
         }
     }
 
-    /// A number that only some methods have.
-    pub(crate) fn number_if_any(&self, name: &str) -> Option<f64> {
+    /// A whole number that only some methods have.
+    pub(crate) fn whole_if_any(&self, name: &str) -> Option<u32> {
         match self.0.get(name) {
-            Some(Value::Number(value)) => Some(*value),
+            Some(Value::Whole(value)) => Some(*value),
             _ => None,
         }
+    }
+
+    /// Every parameter and its value.
+    pub(crate) fn all(&self) -> impl Iterator<Item = (&'static str, &Value)> {
+        self.0.iter().map(|(name, value)| (*name, value))
     }
 
     /// A word.
@@ -90,6 +98,7 @@ impl Settings {
     pub fn describe(&self) -> BTreeMap<String, String> {
         let text = |value: &Value| match value {
             Value::Number(number) => number.to_string(),
+            Value::Whole(number) => number.to_string(),
             Value::Word(word) => (*word).to_owned(),
         };
         self.0.iter().map(|(name, value)| ((*name).to_owned(), text(value))).collect()
@@ -99,11 +108,14 @@ impl Settings {
 impl Parameter {
     fn read(&self, given: Option<&str>) -> Result<Value, String> {
         match self.kind {
-            Kind::Number { default, min, max } => {
-                let Some(text) = given else { return Ok(Value::Number(default)) };
-                let number = text.parse::<f64>().ok().filter(|n| (min..=max).contains(n));
-                number.map(Value::Number).ok_or_else(|| {
-                    format!("{} = \"{text}\" is not a number from {min} to {max}", self.name)
+            Kind::Number { default, min, max, whole } => {
+                let value = |n: f64| if whole { Value::Whole(n as u32) } else { Value::Number(n) };
+                let Some(text) = given else { return Ok(value(default)) };
+                let fits = |n: &f64| (min..=max).contains(n) && (!whole || n.fract() == 0.0);
+                let number = text.parse::<f64>().ok().filter(fits);
+                let kind = if whole { "whole number" } else { "number" };
+                number.map(value).ok_or_else(|| {
+                    format!("{} = \"{text}\" is not a {kind} from {min} to {max}", self.name)
                 })
             }
             Kind::Choice(words) => {

@@ -3,11 +3,12 @@
 //! The file defines `fn trace(pixel: vec2i, v_ws: vec3f, surface: Surface) -> Trace`
 //! as the built-in methods do (see `shaders/shade/shade.wgsl`). It may call everything
 //! they call; what it reads, directly or not, is what will be drawn before it.
-//! The comment at its top is shown as its description.
+//! Its head says what it is and what it needs, as theirs do (see `wgsl/source.rs`);
+//! without a line of needs it may call everything in `shaders/methods/anything.wgsl`.
 
-use super::{METHODS, Method, Pieces};
+use super::{METHODS, Method};
 use crate::Error;
-use crate::wgsl::Piece;
+use crate::wgsl::Source;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
@@ -39,18 +40,9 @@ pub(super) fn method(path: &str) -> Result<&'static Method, Error> {
     if taken.into_iter().any(|id| id == stem) {
         return Err(fail(format!("a method is called \"{stem}\" already; rename the file")));
     }
-    let comment = text.lines().map_while(|line| line.strip_prefix("//")).map(str::trim);
-    let about = comment.collect::<Vec<_>>().join(" ");
-    let method = Box::leak(Box::new(Method {
-        id: stem.to_owned().leak(),
-        alias: "",
-        title: "a method from a file",
-        about: about.leak(),
-        bibtex: "",
-        parameters: &[],
-        traces_colours: true,
-        pieces: Pieces::Read(Piece::new(path, text)),
-    }));
+    let read_from = Method::from_source(stem.to_owned().leak(), Source::new(path, text));
+    let title = if read_from.title.is_empty() { "a method from a file" } else { read_from.title };
+    let method = Box::leak(Box::new(Method { title, from_user: true, ..read_from }));
     read.insert(path.to_owned(), method);
     Ok(method)
 }

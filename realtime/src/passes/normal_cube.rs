@@ -1,75 +1,96 @@
 //! The normals of the bodies' far sides in a cube about their middle, for
 //! `normal-cube`. Drawn once unless something moves or deforms.
 
+use super::pipelines::ReadyRaster;
+use super::raster_pass::{Files, RasterPass, Sides, Target};
+use super::{Listed, Making, Pass, Ready, Record, Wanted};
 use crate::Error;
-use crate::composition::chosen::piece;
-use crate::composition::inputs::Order;
-use crate::drawn::drawables::Parts;
-use crate::drawn::frame_uniforms::{self, Viewed};
-use crate::drawn::uniforms;
+use crate::composition::inputs::Inputs;
+use crate::drawn::frame_uniforms::FrameUniform;
+use crate::drawn::{frame_uniforms, uniforms};
 use crate::gpu::recorder::Recorder;
-use crate::gpu::resources::Resources;
-use crate::passes::pipelines::{DrawnSurfaces, Maker};
-use crate::passes::raster_pass::{Sides, Surfaces, target};
-use wgpu::{BufferUsages, TextureUsages};
+use crate::gpu::resources::Outputs;
+use crate::plan::entries::Entries;
+use encase::ShaderType;
+use wgpu::{BufferUsages, TextureFormat, TextureUsages, TextureViewDimension};
+
+pub(crate) const LISTED: Listed = Listed { compose, absent: |_| () };
 
 /// Texels along a face.
-pub(crate) const SIZE_PX: u32 = 256;
-pub(crate) const FACES: [&str; 6] =
+const SIZE_PX: u32 = 256;
+const FACES: [&str; 6] =
     ["normals +X", "normals -X", "normals +Y", "normals -Y", "normals +Z", "normals -Z"];
+const FILES: Files =
+    Files { targets: "normal_face_targets", analytic: Some("normal_face_analytic") };
+/// What shading reads.
+const CUBE: &str = "normal_faces";
 
 /// One face's pass: the farthest surface in each direction, whichever side it shows.
-pub(crate) fn composed(order: &Order<'_>, bodies: &Parts) -> Result<Surfaces, Error> {
-    let head = order.raster_head_of(piece!("core/camera_perspective.wgsl"));
-    let value = "vec4f(surface_normal_ws(v), distance(v.p_lc, frame.middle_lc))";
-    let normal = vec![target("normal_face", true, value)];
-    Surfaces::new("normals", normal, Sides::Outermost, &head, bodies)
+struct NormalCube(RasterPass);
+
+fn compose(inputs: &Inputs<'_>, wanted: &Wanted<'_>) -> Result<Option<Box<dyn Pass>>, Error> {
+    if !wanted.reads(CUBE) {
+        return Ok(None);
+    }
+    let choices = inputs.choices.with("camera", "camera_perspective");
+    let (targets, bodies) = (vec![Target::rgba("normal_face", 0)], &inputs.geometry.bodies);
+    let pass = RasterPass::new("normals", targets, Sides::Outermost, &FILES, &choices, bodies)?;
+    Ok(Some(Box::new(NormalCube(pass))))
+}
+
+impl Pass for NormalCube {
+    fn reads(&self, global: &str) -> bool {
+        self.0.reads(global)
+    }
+
+    fn plan(&self, entries: &mut Entries<'_>) {
+        let pixels = u64::from(SIZE_PX).pow(2);
+        entries.buffer(CUBE, 6 * pixels * 16);
+        for _ in FACES {
+            entries.buffer("frame of a face", FrameUniform::min_size().get());
+            self.0.plan_depth_test(entries, pixels);
+        }
+        // Both sides, for every face.
+        entries.analytic_bodies(2 * FACES.len());
+        let reason = "nothing moves: the normals were drawn before the first frame";
+        entries.faces(&FACES, "six faces of normals", reason);
+    }
+
+    fn ready(&self, making: &Making<'_>) -> Result<Ready, Error> {
+        let maker = making.bodies.clone().resized([SIZE_PX; 2]);
+        let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING;
+        let (size, format) = ([SIZE_PX, SIZE_PX, 6], TextureFormat::Rgba32Float);
+        let cube = maker.allocator.texture(CUBE, size, format, usage)?;
+        let geometry = making.view.geometry;
+        let mut faces = Vec::new();
+        for (index, name) in FACES.into_iter().enumerate() {
+            let numbers = frame_uniforms::numbers(making.view, 0);
+            let numbers = numbers.of_cube_face(index, geometry.middle_lc, SIZE_PX, 0);
+            let bytes = uniforms::bytes_of(&numbers);
+            let uniform = BufferUsages::UNIFORM;
+            let mut own = Outputs::default();
+            own.buffer("frame", maker.allocator.filled("frame of a face", &bytes, uniform)?);
+            own.layer("normal_face", &cube, index as u32);
+            let (face, _) = maker.raster(&self.0, &own.over(making.before))?;
+            faces.push(face.named(name));
+        }
+        let mut outputs = Outputs::default();
+        outputs.texture_as(CUBE, cube, TextureViewDimension::D2Array);
+        Ok(Ready::new(ReadyNormalCube { faces, changes: geometry.changes }, outputs))
+    }
 }
 
 /// The faces, ready to be drawn.
-pub(crate) struct DrawnNormals {
-    faces: Vec<(DrawnSurfaces, Resources)>,
+struct ReadyNormalCube {
+    faces: Vec<ReadyRaster>,
     changes: bool,
 }
 
-impl DrawnNormals {
-    /// Makes pipelines and memory; the cube goes to `shown`.
-    pub(crate) fn new(
-        bodies: &Maker<'_>,
-        surfaces: &Surfaces,
-        view: &Viewed<'_>,
-        shown: &mut Resources,
-    ) -> Result<Self, Error> {
-        let maker = bodies.clone().resized([SIZE_PX; 2]);
-        let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING;
-        let format = wgpu::TextureFormat::Rgba32Float;
-        let size = [SIZE_PX, SIZE_PX, 6];
-        let cube = maker.allocator.texture("normal_faces", size, format, usage)?;
-        let mut faces = Vec::new();
-        for (index, name) in FACES.into_iter().enumerate() {
-            let mut own = Resources::default();
-            for name in ["bodies", "bumps"] {
-                shown.share(&mut own, name);
-            }
-            let numbers = frame_uniforms::numbers(view, 0);
-            let numbers = numbers.of_cube_face(index, view.geometry.middle_lc, SIZE_PX, 0);
-            let bytes = uniforms::bytes_of(&numbers);
-            let uniform = BufferUsages::UNIFORM;
-            own.buffer("frame", maker.allocator.filled("frame of a face", &bytes, uniform)?);
-            own.layer("normal_face", &cube, index as u32);
-            let drawn = maker.surfaces(surfaces, &mut own)?.named(name);
-            faces.push((drawn, own));
-        }
-        shown.texture_as("normal_faces", cube, wgpu::TextureViewDimension::D2Array);
-        Ok(Self { faces, changes: view.geometry.changes })
-    }
-
-    /// Draws the cube, in the first frame only if nothing moves.
-    pub(crate) fn record(&self, recorder: &mut Recorder<'_>, first: bool) {
+impl Record for ReadyNormalCube {
+    /// In the first frame only if nothing moves.
+    fn record(&self, recorder: &mut Recorder<'_>, first: bool) {
         if first || self.changes {
-            for (face, own) in &self.faces {
-                face.record(recorder, own);
-            }
+            self.faces.iter().for_each(|face| face.record(recorder));
         }
     }
 }

@@ -1,8 +1,8 @@
 //! What a raster pass does beside its shaders: which sides it draws, how depths
 //! are compared, and how colours meet.
 
+use super::raster_pass::{RasterPass, Sides, Target};
 use crate::drawn::drawables::Corner;
-use crate::passes::raster_pass::{Sides, Surfaces, Target};
 use std::mem::size_of;
 
 /// Entry points that read corners of triangles.
@@ -11,7 +11,7 @@ pub(crate) const MESH: [&str; 2] = ["mesh_vertex", "mesh_fragment"];
 /// The pipeline of a pass, from the vertex and fragment entry points of a module.
 pub(crate) fn pipeline(
     device: &wgpu::Device,
-    surfaces: &Surfaces,
+    raster: &RasterPass,
     module: &wgpu::ShaderModule,
     [vertex, fragment]: [&str; 2],
 ) -> wgpu::RenderPipeline {
@@ -22,11 +22,10 @@ pub(crate) fn pipeline(
         step_mode: wgpu::VertexStepMode::Vertex,
         attributes: &attributes,
     })];
-    let targets: Vec<_> =
-        surfaces.targets.iter().map(|t| Some(colour_state(t, surfaces.sides))).collect();
+    let targets = colour_states(raster);
     let options = wgpu::PipelineCompilationOptions::default;
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some(surfaces.name),
+        label: Some(raster.name),
         layout: None,
         vertex: wgpu::VertexState {
             module,
@@ -35,16 +34,10 @@ pub(crate) fn pipeline(
             buffers: if mesh { &buffers } else { &[] },
         },
         primitive: wgpu::PrimitiveState {
-            cull_mode: culled(surfaces.sides).filter(|_| mesh),
+            cull_mode: culled(raster.sides).filter(|_| mesh),
             ..Default::default()
         },
-        depth_stencil: compare(surfaces.sides).map(|compare| wgpu::DepthStencilState {
-            format: wgpu::TextureFormat::Depth32Float,
-            depth_write_enabled: Some(true),
-            depth_compare: Some(compare),
-            stencil: wgpu::StencilState::default(),
-            bias: wgpu::DepthBiasState::default(),
-        }),
+        depth_stencil: compare(raster.sides).map(depth_state),
         multisample: wgpu::MultisampleState::default(),
         fragment: Some(wgpu::FragmentState {
             module,
@@ -55,6 +48,26 @@ pub(crate) fn pipeline(
         multiview_mask: None,
         cache: None,
     })
+}
+
+fn depth_state(compare: wgpu::CompareFunction) -> wgpu::DepthStencilState {
+    wgpu::DepthStencilState {
+        format: wgpu::TextureFormat::Depth32Float,
+        depth_write_enabled: Some(true),
+        depth_compare: Some(compare),
+        stencil: wgpu::StencilState::default(),
+        bias: wgpu::DepthBiasState::default(),
+    }
+}
+
+/// By location; what is not drawn has none.
+fn colour_states(raster: &RasterPass) -> Vec<Option<wgpu::ColorTargetState>> {
+    let locations = raster.targets.iter().map(|target| target.location + 1).max().unwrap_or(0);
+    let mut states = vec![None; locations as usize];
+    for target in &raster.targets {
+        states[target.location as usize] = Some(colour_state(target, raster.sides));
+    }
+    states
 }
 
 fn colour_state(target: &Target, sides: Sides) -> wgpu::ColorTargetState {
@@ -78,7 +91,7 @@ fn colour_state(target: &Target, sides: Sides) -> wgpu::ColorTargetState {
         operation: wgpu::BlendOperation::Max,
     };
     // A mask has one channel of 32 bits and is written, not summed.
-    let factor = factor.filter(|_| target.channels > 1);
+    let factor = factor.filter(|_| target.format != wgpu::TextureFormat::R32Float);
     let blend = factor.map(|f| wgpu::BlendState { color: add(f), alpha: add(f) });
     let blend = match sides {
         Sides::Largest => Some(wgpu::BlendState { color: largest, alpha: largest }),

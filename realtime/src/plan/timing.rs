@@ -1,7 +1,7 @@
 //! What the frames of a request did, and how long they took.
 
+use super::counted::Counted;
 use crate::gpu::recorder::Executed;
-use crate::passes::peel::{Counted, Peel};
 use scenes::rendering::{Pass, Time, TimeSource};
 
 /// Finding the distances along the normals, on the CPU.
@@ -11,7 +11,7 @@ const WHOLE_FRAME: &str = "frame";
 
 /// What all frames of a request did, as the recorder and the allocator saw it.
 #[derive(Default)]
-pub(crate) struct Done {
+pub(crate) struct FrameTimes {
     pub(crate) passes: Vec<Pass>,
     pub(crate) count: u64,
     pub(crate) bytes: u64,
@@ -20,15 +20,12 @@ pub(crate) struct Done {
     pub(crate) layer_bytes: u64,
 }
 
-impl Done {
+impl FrameTimes {
     /// Layers per pixel that are kept, and their bytes, in the frame that keeps
     /// the most.
-    pub(crate) fn layers(&mut self, counted: Option<Counted>, peel: Option<&Peel>) {
-        let layers = counted.map_or(0, |counted| u64::from(counted.capacity));
-        let resolution_px = peel.map_or([0; 2], |peel| peel.resolution_px);
-        let pixels: u64 = resolution_px.map(u64::from).iter().product();
-        self.layers = self.layers.max(layers);
-        self.layer_bytes = self.layer_bytes.max(8 * layers * pixels);
+    pub(crate) fn layers(&mut self, counted: Counted) {
+        self.layers = self.layers.max(u64::from(counted.capacity));
+        self.layer_bytes = self.layer_bytes.max(counted.bytes());
     }
 
     /// `thickness_ms`: what the CPU did before the frame, and would before every

@@ -1,5 +1,14 @@
-//! WGSL put together and read back.
+//! WGSL: files, what their heads say, how they become a shader, and what of it is
+//! really used.
 
+mod bindings;
+mod composer;
+mod files;
 mod shader;
+mod source;
 
-pub(crate) use shader::{Piece, Shader};
+pub(crate) use composer::{Choices, named};
+#[cfg(test)]
+pub(crate) use files::FILES;
+pub(crate) use shader::Shader;
+pub(crate) use source::Source;

@@ -1,24 +1,11 @@
-//! WGSL is put together from pieces and read back with naga: which globals an
+//! WGSL is put together from files and read back with naga: which globals an
 //! entry point really uses decides which passes run, which memory exists and
 //! what is bound. Nothing about bindings is written in Rust.
 
+use super::composer::Choices;
+use super::source::Source;
 use crate::Error;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
-
-/// One file of WGSL.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Piece {
-    /// Name for error messages.
-    pub(crate) name: String,
-    /// Text.
-    pub(crate) text: String,
-}
-
-impl Piece {
-    pub(crate) fn new(name: &str, text: impl Into<String>) -> Self {
-        Self { name: name.to_owned(), text: text.into() }
-    }
-}
 
 /// A shader put together, parsed and validated.
 pub(crate) struct Shader {
@@ -36,22 +23,27 @@ pub(crate) struct Used {
 }
 
 impl Shader {
-    /// Joins pieces in order and validates the whole.
-    pub(crate) fn link(pieces: &[Piece]) -> Result<Self, Error> {
+    /// Files, or choices, with everything that they need.
+    pub(crate) fn compose(roots: &[&str], choices: &Choices) -> Result<Self, Error> {
+        Self::link(&choices.closure(roots)?)
+    }
+
+    /// Joins files in order and validates the whole.
+    fn link(sources: &[Source]) -> Result<Self, Error> {
         let mut text = String::new();
-        for piece in pieces {
-            text.push_str(&piece.text);
+        for source in sources {
+            text.push_str(&source.text);
             text.push('\n');
         }
         let module = naga::front::wgsl::parse_str(&text).map_err(|error| {
             let line = error.location(&text).map_or(1, |at| at.line_number);
-            Error::Shader(format!("{}: {}", place(pieces, line), error.message()))
+            Error::Shader(format!("{}: {}", place(sources, line), error.message()))
         })?;
         let info = Validator::new(ValidationFlags::all(), Capabilities::all())
             .validate(&module)
             .map_err(|error| {
                 let line = error.location(&text).map_or(1, |at| at.line_number);
-                Error::Shader(format!("{}: {}", place(pieces, line), error.emit_to_string(&text)))
+                Error::Shader(format!("{}: {}", place(sources, line), error.emit_to_string(&text)))
             })?;
         Ok(Self { text, module, info })
     }
@@ -84,16 +76,16 @@ impl Shader {
 }
 
 /// File and line of a line of the joined text.
-fn place(pieces: &[Piece], mut line: u32) -> String {
-    for piece in pieces {
-        let lines = piece.text.lines().count().max(1) as u32;
-        let joined = lines + u32::from(piece.text.ends_with('\n'));
+fn place(sources: &[Source], mut line: u32) -> String {
+    for source in sources {
+        let lines = source.text.lines().count().max(1) as u32;
+        let joined = lines + u32::from(source.text.ends_with('\n'));
         if line <= lines {
-            return format!("{}:{line}", piece.name);
+            return format!("{}:{line}", source.file_name());
         }
         line -= joined.min(line);
     }
-    pieces.last().map_or_else(String::new, |piece| format!("{}: at its end", piece.name))
+    sources.last().map_or_else(String::new, |source| format!("{}: at its end", source.file_name()))
 }
 
 #[cfg(test)]
@@ -110,7 +102,7 @@ fn read_b() -> vec4f { return b; }
 
     #[test]
     fn a_global_that_is_not_read_is_not_bound() {
-        let shader = Shader::link(&[Piece::new("test.wgsl", TEXT)]).unwrap();
+        let shader = Shader::link(&[Source::new("test", TEXT)]).unwrap();
         assert!(shader.uses(&["with_b"], "b"));
         assert!(!shader.uses(&["without_b"], "b"));
         assert_eq!(shader.used("without_b"), [Used { binding: 3, name: "a".to_owned() }]);
@@ -118,11 +110,11 @@ fn read_b() -> vec4f { return b; }
 
     #[test]
     fn an_error_names_the_file_and_its_line() {
-        let pieces = [
-            Piece::new("good.wgsl", TEXT),
-            Piece::new("bad.wgsl", "\nfn f() -> f32 { return 1u; }\n"),
+        let sources = [
+            Source::new("good", TEXT),
+            Source::new("bad.wgsl", "\nfn f() -> f32 { return 1u; }\n"),
         ];
-        let error = Shader::link(&pieces).err().unwrap().to_string();
+        let error = Shader::link(&sources).err().unwrap().to_string();
         assert!(error.starts_with("bad.wgsl:2:"), "{error}");
     }
 }

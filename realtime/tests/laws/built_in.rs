@@ -15,7 +15,7 @@ fn every_method_executes_its_plan_and_leaving_out_changes_no_image() {
             continue;
         };
         scene.camera.resolution_px = [48, 32];
-        for method in METHODS {
+        for method in METHODS.iter() {
             let layers = [LayerName::Radiance, LayerName::Exit, LayerName::Flags];
             let mut lean = request(&scene, method.id, &layers);
             lean.timing = Some(Timing { warm_up: 0, seconds: 0.0, max_frames: 1 });

@@ -36,7 +36,7 @@ pub(crate) fn differing(a: &Rendering, b: &Rendering) -> f64 {
 #[test]
 fn the_image_is_the_same_with_and_without() {
     for scene in bodies() {
-        for method in METHODS {
+        for method in METHODS.iter() {
             let (with, without) = (
                 rendered(&scene, method.id, Keep::Needed),
                 rendered(&scene, method.id, Keep::Everything),

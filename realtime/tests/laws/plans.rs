@@ -243,7 +243,7 @@ fn every_combination_of_pieces_compiles() {
     let mut combinations = 0;
     for mut scene in scenes().into_iter().chain([everything()]) {
         scene.media[1].absorption_per_m = DVec3::ONE;
-        for method in METHODS {
+        for method in METHODS.iter() {
             for parameters in settings(method) {
                 for filter in [Filter::Manual, Filter::Hardware] {
                     for layers in [many_layers(), vec![LayerName::Exit], vec![LayerName::Radiance]]

@@ -65,7 +65,9 @@ impl From<&Parameter> for ParameterAnswer {
     fn from(parameter: &Parameter) -> Self {
         let Parameter { name, unit, help, kind } = parameter;
         let (default, range) = match kind {
-            Kind::Number { default, min, max } => (default.to_string(), format!("{min} to {max}")),
+            Kind::Number { default, min, max, .. } => {
+                (default.to_string(), format!("{min} to {max}"))
+            }
             Kind::Choice(words) => {
                 (words.first().copied().unwrap_or_default().to_owned(), words.join(" | "))
             }

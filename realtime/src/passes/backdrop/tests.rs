@@ -2,14 +2,15 @@
 //! and a ball whose outline has a closed form.
 #![allow(clippy::unwrap_used, reason = "a test that cannot render must fail")]
 
-use crate::composition::inputs::Order;
+use crate::composition::inputs::Inputs;
 use crate::drawn::frame_uniforms::Viewed;
 use crate::drawn::geometry::Geometry;
-use crate::frame::Frame;
+use crate::frame::{Composition, Frame};
+use crate::gpu::allocator::Allocator;
 use crate::gpu::readback;
-use crate::gpu::recorder::{Allocator, Recorder};
+use crate::gpu::recorder::Recorder;
 use crate::methods::{Method, Settings};
-use crate::passes::Composition;
+use crate::wgsl::Choices;
 use crate::{Filter, Gpu, Keep, Request};
 use glam::{DAffine3, DVec3};
 use scenes::environment::{LatLong, Map};
@@ -73,7 +74,7 @@ fn drawn(scene: &Scene, frame: u32) -> Vec<(DVec3, DVec3)> {
     let settings = Settings::new(method, &request.parameters).unwrap();
     let geometry = Geometry::new(scene, frame).unwrap();
     let camera = &scene.camera;
-    let order = Order {
+    let inputs = Inputs {
         method,
         settings: &settings,
         scene,
@@ -82,8 +83,10 @@ fn drawn(scene: &Scene, frame: u32) -> Vec<(DVec3, DVec3)> {
         request: &request,
         outputs: &["radiance"],
         resolution_px: [32; 2],
+        choices: Choices::default(),
+        index_matched: false,
     };
-    let composition = Composition::new(&order).unwrap();
+    let composition = Composition::new(inputs).unwrap();
     let allocator = Allocator::new(&gpu);
     let viewed = Viewed {
         geometry: &geometry,
@@ -96,7 +99,7 @@ fn drawn(scene: &Scene, frame: u32) -> Vec<(DVec3, DVec3)> {
     let mut recorder = Recorder::new(&gpu, false);
     frame.record(&mut recorder, true);
     recorder.finish().unwrap();
-    let cube = frame.resources.image("environment_cube").unwrap();
+    let cube = frame.outputs.image("environment_cube").unwrap();
     let values = readback::texture_values(&gpu, cube, 4).unwrap();
     assert_eq!(values.len(), (6 * SIZE_PX * SIZE_PX * 4) as usize);
     let texel = |i: usize| {

@@ -2,9 +2,8 @@
 //! that holds all of the bodies, whatever the image shows.
 
 use crate::Error;
-use crate::composition::chosen::piece;
-use crate::composition::inputs::Order;
-use crate::wgsl::Piece;
+use crate::composition::inputs::Inputs;
+use crate::composition::layer_images::asked_for;
 use scenes::{Camera, Projection};
 
 /// Room around the ball that holds the bodies.
@@ -12,26 +11,26 @@ const MARGIN: f64 = 1.05;
 
 /// A camera fitted to the bodies, if the method asks for one. It looks from the
 /// image's eye, or along the image's axis, and its image is square.
-pub(super) fn fitted(order: &Order<'_>) -> Result<Option<Camera>, Error> {
-    if order.settings.word_if_any("peel_camera") != Some("fitted") {
+pub(super) fn fitted(inputs: &Inputs<'_>) -> Result<Option<Camera>, Error> {
+    if inputs.settings.word_if_any("peel_camera") != Some("fitted") {
         return Ok(None);
     }
     let refuse = |what: &str| {
         let what = format!("peel_camera = fitted: {what}; write peel_camera = screen");
-        Err(Error::Parameter { method: order.method.id.to_owned(), what })
+        Err(Error::Parameter { method: inputs.method.id.to_owned(), what })
     };
-    if super::asked_for(order.request) {
+    if asked_for(inputs.request) {
         return refuse("its layers are not those of the image and cannot be shown as such");
     }
-    let (centre, radius_m) = (order.geometry.centre, MARGIN * order.geometry.radius_m);
-    let basis = order.camera.basis();
-    let away = centre - order.camera.eye;
-    let edge_px = match order.settings.number("peel_px") as u32 {
-        0 => order.resolution_px[0].max(order.resolution_px[1]),
+    let (centre, radius_m) = (inputs.geometry.centre, MARGIN * inputs.geometry.radius_m);
+    let basis = inputs.camera.basis();
+    let away = centre - inputs.camera.eye;
+    let edge_px = match inputs.settings.number("peel_px") as u32 {
+        0 => inputs.resolution_px[0].max(inputs.resolution_px[1]),
         edge_px => edge_px,
     };
     let camera =
-        Camera { target: centre, up: basis.up, resolution_px: [edge_px; 2], ..*order.camera };
+        Camera { target: centre, up: basis.up, resolution_px: [edge_px; 2], ..*inputs.camera };
     Ok(Some(match camera.projection {
         Projection::Orthographic { .. } => {
             let eye = centre - away.dot(basis.forward) * basis.forward;
@@ -52,14 +51,4 @@ pub(super) fn fitted(order: &Order<'_>) -> Result<Option<Camera>, Error> {
             Camera { projection: Projection::Perspective { vertical_fov_deg }, up, ..camera }
         }
     }))
-}
-
-/// How shaders find their way in the layers.
-pub(crate) fn pieces(order: &Order<'_>) -> Vec<Piece> {
-    if order.settings.word_if_any("peel_camera") != Some("fitted") {
-        return vec![piece!("layers/peel_camera_screen.wgsl")];
-    }
-    let perspective = matches!(order.camera.projection, Projection::Perspective { .. });
-    let constant = format!("const PEEL_PERSPECTIVE: bool = {perspective};\n");
-    vec![Piece::new("projection of the layers", constant), piece!("layers/peel_camera_fitted.wgsl")]
 }

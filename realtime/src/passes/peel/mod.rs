@@ -6,77 +6,113 @@ mod composed;
 mod layer;
 mod strategy;
 
-pub(crate) use camera::pieces as camera_pieces;
-pub(crate) use composed::Peel;
-pub(crate) use layer::{Part as LayerPart, asked_for};
-pub(crate) use strategy::Counted;
+pub(crate) use layer::read;
 
+use super::pipelines::{OverPixels, ReadyRaster};
+use super::{Listed, Maker, Making, Pass, Ready, Record, Wanted};
+use crate::composition::inputs::Inputs;
+use crate::composition::layer_images;
 use crate::drawn::frame_uniforms::{self, Viewed};
 use crate::drawn::uniforms;
 use crate::gpu::readback;
 use crate::gpu::recorder::Recorder;
-use crate::gpu::resources::Resources;
+use crate::gpu::resources::Outputs;
 use crate::methods::Settings;
-use crate::passes::pipelines::{DrawnSurfaces, Maker, OverPixels};
+use crate::plan::counted::Counted;
+use crate::plan::entries::Entries;
 use crate::{Error, Gpu};
-use composed::{CLEAR_OWN, FRAME_OF_LAYERS, Step};
-use strategy::Way;
-use wgpu::{BufferUsages, TextureUsages};
+use composed::{CLEAR, CLEAR_OWN, FRAME_OF_LAYERS, LAYERS, Peel, Step};
+use scenes::plan::{Kind, Unsupported};
+use strategy::Strategy;
+use wgpu::{BufferUsages, TextureFormat, TextureUsages, TextureViewDimension};
 
-/// The passes that fill the layers.
-pub(crate) struct Peeled {
-    collect: DrawnSurfaces,
-    draws: u32,
-    keep: Option<(&'static str, OverPixels)>,
-    finish: Option<(&'static str, OverPixels)>,
-    own: Option<&'static str>,
-    resources: Resources,
-    resolution_px: [u32; 2],
-    /// What was counted.
-    pub(crate) counted: Counted,
+pub(crate) const LISTED: Listed = Listed { compose, absent };
+
+/// How many interfaces each pixel has: what others look at layers by.
+const COUNTS: &str = "slot_counts";
+
+fn compose(inputs: &Inputs<'_>, wanted: &Wanted<'_>) -> Result<Option<Box<dyn Pass>>, Error> {
+    if !wanted.reads(COUNTS) && !layer_images::asked_for(inputs.request) {
+        return Ok(None);
+    }
+    Ok(Some(Box::new(Peel::new(inputs)?)))
 }
 
-impl Peeled {
-    /// Counts the view's layers and makes room for them; `shown` gets what
-    /// others read.
-    pub(crate) fn new(
-        bodies: &Maker<'_>,
-        peel: &Peel,
-        view: &Viewed<'_>,
-        shown: &mut Resources,
-    ) -> Result<Self, Error> {
-        peel.way.check(bodies.gpu)?;
-        let camera = peel.camera.unwrap_or(*view.camera);
-        let view = &Viewed { camera: &camera, resolution_px: peel.resolution_px, ..*view };
-        let (maker, mut resources) = own(bodies, peel, view, shown)?;
-        let most = count(&maker, peel, view, &mut resources)?;
-        let counted = Counted::new(most, peel.max_layers);
-        let own = make_room(&maker, peel, view, counted.capacity, &mut resources)?;
+fn absent(entries: &mut Entries<'_>) {
+    let reason = "the method does not look between the first and the last surface";
+    entries.plan.leave_out(Kind::Pass, "layers", reason, 8 * entries.pixels * 2);
+    if entries.geometry.media.len() > 1 {
+        entries.plan.unsupported.push(Unsupported {
+            what: "several bodies".to_owned(),
+            instead: "light bends at the nearest body and does not meet another".to_owned(),
+        });
+    }
+}
+
+impl Pass for Peel {
+    fn reads(&self, _: &str) -> bool {
+        false
+    }
+
+    fn plan(&self, entries: &mut Entries<'_>) {
+        self.plan_passes(entries);
+        self.plan_buffers(entries);
+    }
+
+    /// Counts the view's layers and makes room for them.
+    fn ready(&self, making: &Making<'_>) -> Result<Ready, Error> {
+        self.strategy.check(making.bodies.gpu)?;
+        let camera = self.camera.unwrap_or(*making.view.camera);
+        let view = &Viewed { camera: &camera, resolution_px: self.resolution_px, ..*making.view };
+        let (maker, own) = own(self, making, view)?;
+        let (counts, counted) = count(&maker, self, view, &own.clone().over(making.before))?;
+        let resources = counts.clone().over(&own).over(making.before);
+        let (room, cleared) = make_room(&maker, self, view, counted.capacity)?;
+        let resources = room.clone().over(&resources);
         frame_uniforms::set_layer_capacity(maker.gpu, view, counted.capacity, &resources);
-        let collect = maker.surfaces(&peel.collect, &mut resources)?;
+        let (collect, found) = maker.raster(&self.collect, &resources)?;
+        let resources = found.over(&resources);
         let step = |step: &Option<Step>| {
             let made = step.as_ref().map(|step| {
                 let work = maker.over_pixels(&step.shader, step.entry_point, &resources)?;
-                Ok((step.pass, work))
+                Ok::<_, Error>((step.pass, work))
             });
             made.transpose()
         };
-        let (keep, finish) = (step(&peel.keep)?, step(&peel.finish)?);
-        for name in ["slot_counts", "slot_depths", "slot_normals"] {
-            resources.share(shown, name);
-        }
-        let draws = peel.way.draws(counted);
-        let resolution_px = peel.resolution_px;
-        Ok(Self { collect, draws, keep, finish, own, resources, resolution_px, counted })
+        let ready = ReadyPeel {
+            collect,
+            draws: self.strategy.draws(counted),
+            keep: step(&self.keep)?,
+            finish: step(&self.finish)?,
+            counts: resources.stored(COUNTS).clone(),
+            own: cleared.map(|name| resources.stored(name).clone()),
+            resolution_px: self.resolution_px,
+        };
+        let handed_on = [COUNTS, LAYERS[0], LAYERS[1], "peel_frame"];
+        let outputs = room.over(&counts).over(&own).only(&handed_on);
+        Ok(Ready { counted: Some(counted), ..Ready::new(ready, outputs) })
     }
+}
 
-    pub(crate) fn record(&self, recorder: &mut Recorder<'_>) {
-        recorder.clear("clear layers", self.resources.stored("slot_counts"));
-        if let Some(own) = self.own {
-            recorder.clear(CLEAR_OWN, self.resources.stored(own));
+/// The passes that fill the layers.
+struct ReadyPeel {
+    collect: ReadyRaster,
+    draws: u32,
+    keep: Option<(&'static str, OverPixels)>,
+    finish: Option<(&'static str, OverPixels)>,
+    counts: wgpu::Buffer,
+    own: Option<wgpu::Buffer>,
+    resolution_px: [u32; 2],
+}
+
+impl Record for ReadyPeel {
+    fn record(&self, recorder: &mut Recorder<'_>, _: bool) {
+        recorder.clear(CLEAR, &self.counts);
+        if let Some(own) = &self.own {
+            recorder.clear(CLEAR_OWN, own);
         }
         for _ in 0..self.draws {
-            self.collect.record(recorder, &self.resources);
+            self.collect.record(recorder);
             if let Some((pass, keep)) = &self.keep {
                 keep.record(recorder, pass, self.resolution_px);
             }
@@ -87,33 +123,28 @@ impl Peeled {
     }
 }
 
-/// What draws the layers and what it reads: the image's camera, or their own.
+/// What draws the layers, and the camera's numbers: the image's, or their own.
 fn own<'a>(
-    bodies: &Maker<'a>,
     peel: &Peel,
+    making: &Making<'a>,
     view: &Viewed<'_>,
-    shown: &mut Resources,
-) -> Result<(Maker<'a>, Resources), Error> {
-    let mut resources = Resources::default();
-    for name in ["bodies", "bumps"] {
-        shown.share(&mut resources, name);
-    }
+) -> Result<(Maker<'a>, Outputs), Error> {
+    let (bodies, mut outputs) = (making.bodies.clone(), Outputs::default());
     if peel.camera.is_none() {
-        shown.share(&mut resources, "frame");
-        return Ok((bodies.clone(), resources));
+        return Ok((bodies, outputs));
     }
     let bytes = uniforms::bytes_of(&frame_uniforms::numbers(view, 0));
     let usage = BufferUsages::UNIFORM | BufferUsages::STORAGE;
     let buffer = bodies.allocator.filled(FRAME_OF_LAYERS, &bytes, usage)?;
-    shown.buffer("peel_frame", buffer.clone());
-    resources.buffer("frame", buffer);
-    Ok((bodies.clone().resized(peel.resolution_px), resources))
+    outputs.buffer("peel_frame", buffer.clone());
+    outputs.buffer("frame", buffer);
+    Ok((bodies.resized(peel.resolution_px), outputs))
 }
 
-/// Chooses the way of peeling that was left to the adapter.
+/// Chooses the strategy that was left to the adapter.
 pub(crate) fn decide(settings: &mut Settings, gpu: &Gpu) {
     if settings.word_if_any("peel") == Some("auto") {
-        settings.decide("peel", Way::automatic(gpu.device.features()).word());
+        settings.decide("peel", Strategy::automatic(gpu.device.features()).word());
     }
 }
 
@@ -121,42 +152,46 @@ fn pixels(view: &Viewed<'_>) -> u64 {
     view.resolution_px.map(u64::from).iter().product()
 }
 
-/// Interfaces of the pixel that has the most.
+/// Interfaces of the pixel that has the most, and what counts them.
 fn count(
     maker: &Maker<'_>,
     peel: &Peel,
     view: &Viewed<'_>,
-    resources: &mut Resources,
-) -> Result<u32, Error> {
+    before: &Outputs,
+) -> Result<(Outputs, Counted), Error> {
     let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
     let bytes = 4 * pixels(view);
-    resources.buffer("slot_counts", maker.allocator.buffer("slot_counts", bytes, usage)?);
-    let count = maker.surfaces(&peel.count, resources)?;
+    let counts = maker.allocator.buffer(COUNTS, bytes, usage)?;
+    let mut outputs = Outputs::default();
+    outputs.buffer(COUNTS, counts.clone());
+    let (count, images) = maker.raster(&peel.count, &outputs.clone().over(before))?;
     let mut recorder = Recorder::new(maker.gpu, false);
-    recorder.clear("clear layers", resources.stored("slot_counts"));
-    count.record(&mut recorder, resources);
+    recorder.clear(CLEAR, &counts);
+    count.record(&mut recorder);
     recorder.finish()?;
-    let counts = readback::buffer_bytes(maker.gpu, resources.stored("slot_counts"), bytes)?;
-    Ok(bytemuck::pod_collect_to_vec::<u8, u32>(&counts).into_iter().max().unwrap_or(0))
+    let values = readback::buffer_bytes(maker.gpu, &counts, bytes)?;
+    let most = bytemuck::pod_collect_to_vec::<u8, u32>(&values).into_iter().max().unwrap_or(0);
+    Ok((outputs.over(&images), Counted::new(most, peel.max_layers, pixels(view))))
 }
 
-/// Memory for the layers, and for what only one way of peeling has.
+/// Memory for the layers, and for what only one strategy has, by its name.
 fn make_room(
     maker: &Maker<'_>,
     peel: &Peel,
     view: &Viewed<'_>,
     capacity: u32,
-    resources: &mut Resources,
-) -> Result<Option<&'static str>, Error> {
+) -> Result<(Outputs, Option<&'static str>), Error> {
+    let mut outputs = Outputs::default();
     let size = [view.resolution_px[0], view.resolution_px[1], capacity];
     let usage =
         TextureUsages::STORAGE_BINDING | TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_SRC;
-    for name in ["slot_depths", "slot_normals"] {
-        let format = wgpu::TextureFormat::R32Uint;
-        let texture = maker.allocator.texture(name, size, format, usage)?;
-        resources.texture_as(name, texture, wgpu::TextureViewDimension::D2Array);
+    for name in LAYERS {
+        let texture = maker.allocator.texture(name, size, TextureFormat::R32Uint, usage)?;
+        outputs.texture_as(name, texture, TextureViewDimension::D2Array);
     }
-    let Some((name, bytes_per_pixel)) = peel.way.own_buffer(capacity) else { return Ok(None) };
+    let Some((name, bytes_per_pixel)) = peel.strategy.own_buffer(capacity) else {
+        return Ok((outputs, None));
+    };
     let needed = bytes_per_pixel * pixels(view);
     let allowed = maker.gpu.device.limits().max_storage_buffer_binding_size;
     if needed > allowed {
@@ -169,6 +204,6 @@ fn make_room(
         });
     }
     let usage = BufferUsages::STORAGE | BufferUsages::COPY_DST;
-    resources.buffer(name, maker.allocator.buffer(name, needed, usage)?);
-    Ok(Some(name))
+    outputs.buffer(name, maker.allocator.buffer(name, needed, usage)?);
+    Ok((outputs, Some(name)))
 }

@@ -1,16 +1,14 @@
-//! The ways of depth peeling, and what each asks of an adapter.
+//! The strategies of depth peeling, and what each asks of an adapter.
 
 use crate::methods::Settings;
+use crate::plan::counted::Counted;
 use crate::{Error, Gpu};
 
 use wgpu::Features;
 
-/// Most layers that are kept; what lies behind is flagged.
-pub(crate) const MAX_LAYERS: u32 = 32;
-
 /// How the layers of a view are found. All leave the same layers behind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Way {
+pub(crate) enum Strategy {
     /// In one pass into the next free slot, and sorted afterwards.
     Slots,
     /// One layer per pass.
@@ -21,23 +19,7 @@ pub(crate) enum Way {
     Cascade,
 }
 
-/// What was counted before the first frame.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Counted {
-    /// Layers per pixel that are kept.
-    pub(crate) capacity: u32,
-    /// Some pixel has more.
-    pub(crate) overflows: bool,
-}
-
-impl Counted {
-    /// Room for the pixel with the most interfaces, up to a limit.
-    pub(crate) fn new(most: u32, max_layers: u32) -> Self {
-        Self { capacity: most.clamp(2, max_layers), overflows: most > max_layers }
-    }
-}
-
-impl Way {
+impl Strategy {
     /// What a method's parameter says; slots for methods without one.
     pub(crate) fn of(settings: &Settings) -> Self {
         match settings.word_if_any("peel") {
@@ -72,7 +54,7 @@ impl Way {
         }
     }
 
-    /// Bytes per pixel of the buffer that only this way has, and its name.
+    /// Bytes per pixel of the buffer that only this strategy has, and its name.
     pub(crate) fn own_buffer(self, capacity: u32) -> Option<(&'static str, u64)> {
         match self {
             Self::Slots | Self::Everitt => None,
@@ -99,7 +81,7 @@ impl Way {
         }
     }
 
-    /// Refuses a way that the adapter cannot go.
+    /// Refuses a strategy that the adapter cannot follow.
     pub(crate) fn check(self, gpu: &Gpu) -> Result<(), Error> {
         self.check_features(gpu.device.features(), &gpu.info().name)
     }
@@ -125,30 +107,33 @@ mod tests {
 
     #[test]
     fn a_missing_feature_is_named_with_what_to_write_instead() {
-        for (way, name) in
-            [(Way::Dual, "FLOAT32_BLENDABLE"), (Way::Cascade, "SHADER_INT64_ATOMIC_ALL_OPS")]
-        {
-            let error = way.check_features(Features::empty(), "plain").unwrap_err().to_string();
-            for part in [name, way.word(), "plain", "peel = slots"] {
+        for (strategy, name) in [
+            (Strategy::Dual, "FLOAT32_BLENDABLE"),
+            (Strategy::Cascade, "SHADER_INT64_ATOMIC_ALL_OPS"),
+        ] {
+            let error =
+                strategy.check_features(Features::empty(), "plain").unwrap_err().to_string();
+            for part in [name, strategy.word(), "plain", "peel = slots"] {
                 assert!(error.contains(part), "{error}");
             }
-            way.check_features(Features::all(), "rich").unwrap();
+            strategy.check_features(Features::all(), "rich").unwrap();
         }
-        assert_eq!(Way::automatic(Features::empty()), Way::Slots);
-        assert_eq!(Way::automatic(Features::all()), Way::Cascade);
-        Way::Slots.check_features(Features::empty(), "plain").unwrap();
-        Way::Everitt.check_features(Features::empty(), "plain").unwrap();
+        assert_eq!(Strategy::automatic(Features::empty()), Strategy::Slots);
+        assert_eq!(Strategy::automatic(Features::all()), Strategy::Cascade);
+        Strategy::Slots.check_features(Features::empty(), "plain").unwrap();
+        Strategy::Everitt.check_features(Features::empty(), "plain").unwrap();
     }
 
     #[test]
     fn passes_follow_the_number_of_layers() {
-        let six = Counted::new(6, 32);
+        let six = Counted::new(6, 32, 1);
         let [slots, everitt, dual, cascade] =
-            [Way::Slots, Way::Everitt, Way::Dual, Way::Cascade].map(|way| way.draws(six));
+            [Strategy::Slots, Strategy::Everitt, Strategy::Dual, Strategy::Cascade]
+                .map(|strategy| strategy.draws(six));
         assert_eq!([slots, everitt, dual, cascade], [1, 6, 4, 1]);
-        let cut = Counted::new(6, 5);
-        assert_eq!(cut, Counted { capacity: 5, overflows: true });
-        assert_eq!([Way::Everitt, Way::Dual].map(|way| way.draws(cut)), [6, 4]);
-        assert_eq!(Counted::new(0, 32), Counted { capacity: 2, overflows: false });
+        let cut = Counted::new(6, 5, 1);
+        assert_eq!(cut, Counted { capacity: 5, overflows: true, pixels: 1 });
+        assert_eq!([Strategy::Everitt, Strategy::Dual].map(|strategy| strategy.draws(cut)), [6, 4]);
+        assert_eq!(Counted::new(0, 32, 1), Counted { capacity: 2, overflows: false, pixels: 1 });
     }
 }

@@ -1,4 +1,7 @@
+// needs: frame
 // Parallel rays. The twin of camera_perspective.wgsl.
+
+const PERSPECTIVE: bool = false;
 
 fn view_direction_ws(position_px: vec2f) -> vec3f {
     return frame.forward_ws;

@@ -1,4 +1,7 @@
+// needs: frame
 // A pinhole. The twin of camera_orthographic.wgsl.
+
+const PERSPECTIVE: bool = true;
 
 fn view_direction_ws(position_px: vec2f) -> vec3f {
     let at = on_image_plane(position_px);

@@ -1,3 +1,4 @@
+// needs: cube
 // The bordered cube, filtered by hand with the formula that the exact renderer
 // uses on the same texels.
 

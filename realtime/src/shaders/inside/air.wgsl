@@ -1,3 +1,4 @@
+// needs: varyings clip noise
 // Enclosed air: a plane through the middle, dense towards the core, with blobs of
 // noise and small round bubbles. Premultiplied white.
 
@@ -16,4 +17,12 @@ fn air_light(v: Varyings) -> vec4f {
     let disc = 1.0 - smoothstep(0.7 * radius, radius + 1e-3, length(24.0 * at - centre));
     let alpha = clamp(core * core * (0.10 * cloud + 0.6 * disc), 0.0, 1.0);
     return vec4f(alpha);
+}
+
+struct Targets {
+    @location(0) air: vec4f,
+}
+
+fn targets(v: Varyings) -> Targets {
+    return Targets(air_light(v));
 }

@@ -1,3 +1,4 @@
+// needs: interior_lookup
 // Enclosed air covers what comes through the body. The twin of air_none.wgsl.
 
 @group(0) @binding(21) var air: texture_2d<f32>;

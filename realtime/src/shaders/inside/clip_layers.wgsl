@@ -1,3 +1,4 @@
+// needs: frame varyings layers
 // A point is inside the body if more of the surfaces in front of it face the eye
 // than turn away: exact for any closed body, to the precision of the layers.
 // An extension of ours.

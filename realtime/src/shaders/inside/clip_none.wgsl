@@ -1,3 +1,4 @@
+// needs: varyings
 // Nothing is clipped: the sheets end where they should by themselves, or leave
 // the body visibly. The twin of clip_depth.wgsl and clip_layers.wgsl.
 

@@ -1,3 +1,4 @@
+// needs: varyings camera clip noise interior parameters
 // A crack: a sheet with a rough normal that glitters in the light (Blinn's
 // specular term), whichever side it shows. Premultiplied; sheets add up.
 
@@ -13,4 +14,13 @@ fn crack_light(v: Varyings) -> vec4f {
     let half_ws = normalize(interior.towards_light_ws + towards_eye_ws);
     let shine = pow(max(dot(rough_ws, half_ws), 0.0), CRACK_SHININESS) * CRACK_STRENGTH;
     return vec4f(vec3f(shine), shine);
+}
+
+struct Targets {
+    @location(0) cracks: vec4f,
+    @location(1) crack_mask: f32,
+}
+
+fn targets(v: Varyings) -> Targets {
+    return Targets(crack_light(v), 1.0);
 }

@@ -1,3 +1,4 @@
+// needs: interior_lookup
 // Cracks lie inside the body and add their glitter to what comes through it.
 // The twin of cracks_none.wgsl.
 

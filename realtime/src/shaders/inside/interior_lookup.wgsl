@@ -1,3 +1,4 @@
+// needs: frame
 // The images of the inside may be coarser than the frame.
 
 fn of_inside(image: texture_2d<f32>, pixel: vec2i) -> vec4f {

@@ -1,6 +1,6 @@
+// needs: frame pack peel_camera
 // The sorted layers of a view: for each pixel depth and
 // normal of every interface its ray meets, nearest first.
-// Needs peel_camera_screen.wgsl or peel_camera_fitted.wgsl.
 // Depth is linear, metres. Layers are counted from 0.
 
 @group(0) @binding(12) var<storage, read> slot_counts: array<u32>;

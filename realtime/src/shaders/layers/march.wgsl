@@ -1,3 +1,4 @@
+// needs: frame peel_camera
 // What the marches through layers share.
 
 struct Chain {

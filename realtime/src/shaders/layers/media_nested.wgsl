@@ -1,3 +1,4 @@
+// needs: frame eta layers
 // Several solids in the view: each layer says whose boundary it is, each solid
 // counts its own winding, and where solids overlap the one with the highest
 // priority fills the space. Schmidt & Budge, "Simple nested dielectrics in ray

@@ -1,3 +1,4 @@
+// needs: frame eta layers
 // One kind of solid in the view: a point is inside while more interfaces that
 // face the camera than interfaces that face away lie in front of it.
 // The twin of media_nested.wgsl for scenes with one medium.

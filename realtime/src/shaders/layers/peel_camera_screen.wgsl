@@ -1,3 +1,4 @@
+// needs: frame camera
 // The layers are those of the image. The twin of peel_camera_fitted.wgsl.
 
 fn peel_px(p_lc: vec3f) -> vec2f {

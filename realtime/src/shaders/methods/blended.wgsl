@@ -1,3 +1,18 @@
+// title: blended front and back normals
+// alias: M2
+// citation: @inproceedings{SeipelNivfors2006,
+//   author = {Stefan Seipel and Anders Nivfors},
+//   title = {Efficient Rendering of Multiple Refractions and Reflections in Natural Objects},
+//   booktitle = {SIGRAD 2006},
+//   year = {2006}
+// }
+// needs: frame front trace eta eye parameters a
+// one way for all colours
+// One bend at a mixture of the front normal and the back normal seen through the same
+// pixel. As printed it weakens refraction: good for ice cubes, wrong for lenses. No total
+// reflection inside. Beside the exact image a ball is a nearly clear disc, upper faces
+// are too bright where eq. 4 overrates the reflection, and nothing mirrors inside.
+
 // `blended`: Seipel & Nivfors, "Efficient rendering of multiple refractions and
 // reflections in natural objects", 2006. Front and back normals are mixed
 // (eq. 1) and light is bent once at the mixture (eq. 2).

@@ -1,12 +1,15 @@
-// `dx7`: the vector of "Fake refraction in DX7", R(a) = (1 - a)(N·E)N - E with E
-// towards the eye: a = -1 mirrors, a = 1 goes straight on. The printed a = 1/n
-// bends away from the normal, against Snell; a = n bends towards it.
-
-fn dx7_vector(v_ws: vec3f, n_ws: vec3f, eta: f32) -> vec3f {
-    let towards_eye = -v_ws;
-    let a = dx7_a(eta);
-    return (1.0 - a) * dot(n_ws, towards_eye) * n_ws - towards_eye;
-}
+// title: fake refraction, per pixel
+// alias: M1b
+// citation: @misc{FakeRefraction2000,
+//   title = {Approximating Refraction: Fake Refraction in DX7},
+//   year = {2000},
+//   note = {cube maps indexed by R = (1 - a)(N.E)N - E}
+// }
+// needs: frame front trace eta index dx7_formula
+// one way for all colours
+// The same formula at every pixel. Bends the wrong way with the printed 1/n; no second
+// interface, no parallax. Beside the exact image the sky stands upright in the upper half
+// of a ball where it should hang below.
 
 fn trace(pixel: vec2i, v_ws: vec3f, surface: Surface) -> Trace {
     let eta = effective_index(eta_body(surface.body)) / frame.eta_outside;

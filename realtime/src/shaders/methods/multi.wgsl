@@ -1,11 +1,23 @@
+// title: march through peeled layers, medium by winding
+// alias: M4r
+// citation: @misc{MaXiaoYang,
+//   author = {Lei Ma and Shuangjiu Xiao and Xubo Yang},
+//   title = {Multi-interfaces based Refractive Rendering},
+//   note = {Shanghai Jiao Tong University}
+// }
+// needs: layers media march first_event interface eta tir parameters
+// As multi-paper, but an interface is where the medium changes, counted from the layers
+// in front. First order in the resolution of the layers; rays that turn sideways find no
+// layer to hit. Beside the exact image everything seen through front and back is right;
+// what should mirror totally is one flat colour or grain, and reflections on the outside
+// are missing.
+
 // `multi`: march a refracted ray through sorted layers and bend it wherever the
 // medium under it changes. Ma, Xiao & Yang, "Multi-interfaces based refractive
 // rendering", with the medium decided by winding instead of by layer number:
 // when the index of the gap changes and the medium does not, the layers were
 // renumbered at a silhouette and nothing happens (their look-back); when the
 // medium changes, an interface was crossed from either side.
-//
-// Needs layers.wgsl, media_single.wgsl or media_nested.wgsl, march.wgsl.
 
 struct Crossing {
     before_lc: vec3f,           // last point still in the old medium

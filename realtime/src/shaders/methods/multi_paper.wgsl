@@ -1,10 +1,22 @@
+// title: march through peeled layers, as published
+// alias: M4p
+// citation: @misc{MaXiaoYang,
+//   author = {Lei Ma and Shuangjiu Xiao and Xubo Yang},
+//   title = {Multi-interfaces based Refractive Rendering},
+//   note = {Shanghai Jiao Tong University}
+// }
+// needs: layers media march first_event interface eta parameters
+// Walks from layer to layer by number, with the repairs without which the printed listing
+// does not run. Wrong where the ray crosses an interface sideways: walls of shells,
+// bubbles. Beside the exact image a cup is right down to its base, where the chain
+// breaks; side faces that should mirror show one flat colour.
+
 // `multi-paper`: the look-back march of Ma, Xiao & Yang as printed, with the
 // repairs without which it does not run: the inner loop's comparison is turned
 // round, depths are sampled again at the pixel the point projects to, and the
 // refraction that the listing leaves out happens after the binary search.
 // The medium alternates with the facing of the layer that was met.
-//
-// Needs layers.wgsl and march.wgsl. `n` is the number of the last
+// `n` is the number of the last
 // interface behind the point, counted from 1 as in the paper.
 
 fn paper_gap_end_m(p_lc: vec3f, n: u32) -> f32 {

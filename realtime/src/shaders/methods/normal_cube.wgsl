@@ -1,3 +1,18 @@
+// title: back normals from a cube map of the body
+// alias: M3n
+// citation: @misc{Khan2004,
+//   author = {A. Khan},
+//   title = {Dual-sided Refraction Simulation},
+//   note = {Shadertech contest, 2004; as described by Seipel and Nivfors, SIGRAD 2006}
+// }
+// needs: frame cube first_event interface eta lookup
+// Bends at the first surface, takes the second normal from a cube of the body's normals
+// in the direction of the ray, and bends again. Needs no second image of the body and no
+// depth; the second surface is where the ray would leave from the middle, so what lies
+// off the middle is bent wrongly. Wrong surfaces on concave bodies. Beside the exact
+// image a ball about the middle shows what one-interface shows, for its far normals are
+// the rays themselves.
+
 // `normal-cube`: the normals of the body's far side, kept in a cube map about its
 // middle. After Khan, "Dual-sided refraction simulation", Shadertech contest
 // 2004, as Seipel & Nivfors (2006) describe it: the cube is looked up along the

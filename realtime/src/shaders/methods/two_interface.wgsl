@@ -1,3 +1,19 @@
+// title: two interfaces in image space
+// alias: M3
+// citation: @inproceedings{Wyman2005,
+//   author = {Chris Wyman},
+//   title = {An Approximate Image-Space Approach for Interactive Refraction},
+//   booktitle = {ACM SIGGRAPH 2005},
+//   pages = {1050--1053},
+//   year = {2005}
+// }
+// needs: frame first_event interface eta back distance n2_filter
+// Bends at the first surface, guesses the distance to the second from two known ones, and
+// bends again at the back normal found there. A ring of clamped total reflection near a
+// ball's limb; wrong surfaces on concave bodies. Beside the exact image a cup looks like
+// a solid lens, faces of a box that should mirror are one flat colour, and highlights are
+// missing.
+
 // `two-interface`: Wyman, "An approximate image-space approach for interactive
 // refraction", SIGGRAPH 2005. The distance to the second surface is guessed
 // from two distances known beforehand: d_V straight along the view, from the

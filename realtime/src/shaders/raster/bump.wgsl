@@ -1,3 +1,4 @@
+// needs: varyings noise
 // Bump-mapped surfaces: normals tilted against the slope of the exact renderer's
 // noise. The twin of bump_none.wgsl.
 

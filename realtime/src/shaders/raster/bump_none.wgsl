@@ -1,3 +1,4 @@
+// needs: varyings
 // Surfaces without bumps.
 
 fn surface_normal_ws(v: Varyings) -> vec3f {

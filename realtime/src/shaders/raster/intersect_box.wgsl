@@ -1,3 +1,4 @@
+// needs: raster_analytic
 // Box about the origin; size_m.xyz are its half extents, infinite ones allowed.
 // Kay & Kajiya, "Ray tracing complex scenes", 1986.
 

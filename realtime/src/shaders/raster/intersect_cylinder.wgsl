@@ -1,3 +1,4 @@
+// needs: raster_analytic
 // Capped cylinder about the y axis; size_m.x is its radius, size_m.y half its height.
 
 fn intersect(o: vec3f, d: vec3f) -> Met {

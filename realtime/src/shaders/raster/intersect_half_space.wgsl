@@ -1,3 +1,4 @@
+// needs: raster_analytic
 // Everything below y = 0.
 
 fn intersect(o: vec3f, d: vec3f) -> Met {

@@ -1,3 +1,4 @@
+// needs: raster_analytic
 // Ball about the origin; size_m.x is its radius.
 
 fn intersect(o: vec3f, d: vec3f) -> Met {

@@ -1,5 +1,6 @@
+// needs: frame camera varyings vertex_vector intersect
 // Draws an analytic body: one triangle over the image, a ray per pixel, exact
-// to f32. Needs intersect() of one shape in object space.
+// to f32. intersect() of one shape works in object space.
 
 struct Analytic {
     object_from_lc: mat4x4f,
@@ -19,28 +20,13 @@ struct Met {
     n_far: vec3f,
 }
 
-struct Varyings {
-    clip: vec4f,                // xy: pixel position
-    p_lc: vec3f,
-    normal_ws: vec3f,
-    geometric_ws: vec3f,
-    body: f32,
-    thickness_m: f32,
-    vector_ws: vec4f,
-}
-
 @vertex
 fn analytic_vertex(@builtin(vertex_index) i: u32) -> @builtin(position) vec4f {
     return vec4f(f32(i & 1u) * 4.0 - 1.0, f32(i >> 1u) * 4.0 - 1.0, 0.0, 1.0);
 }
 
-struct AnalyticTargets {
-    ANALYTIC_DEPTH_FIELD
-ANALYTIC_FIELDS
-}
-
-@fragment
-fn analytic_fragment(@builtin(position) at: vec4f) -> AnalyticTargets {
+// The body at a pixel. Where it is not, the pixel is discarded.
+fn analytic_surface(at: vec4f) -> Varyings {
     let d_ws = view_direction_ws(at.xy);
     let origin = (analytic.object_from_lc * vec4f(view_origin_lc(at.xy), 1.0)).xyz;
     let along = (analytic.object_from_lc * vec4f(d_ws, 0.0)).xyz;
@@ -59,7 +45,11 @@ fn analytic_fragment(@builtin(position) at: vec4f) -> AnalyticTargets {
     let normal_ws = normalize((transpose(analytic.object_from_lc) * vec4f(n_object, 0.0)).xyz);
     let thickness_m = inward_m(p_object, n_object) / scale;
     let vector_ws = vertex_vector(d_ws, normal_ws, u32(analytic.body + 0.5) - 1u);
-    let clip = frame.clip_from_lc * vec4f(p_lc, 1.0);
-    let out = targets(Varyings(at, p_lc, normal_ws, normal_ws, analytic.body, thickness_m, vector_ws));
-    return AnalyticTargets(ANALYTIC_DEPTH_VALUEANALYTIC_VALUES);
+    return Varyings(at, p_lc, normal_ws, normal_ws, analytic.body, thickness_m, vector_ws);
+}
+
+// What a depth test compares, as for triangles.
+fn depth_of_clip(v: Varyings) -> f32 {
+    let clip = frame.clip_from_lc * vec4f(v.p_lc, 1.0);
+    return clip.z / clip.w;
 }

@@ -1,5 +1,5 @@
-// Draws triangles into the surface buffers. What is written is decided by
-// targets(), which is generated from what the method reads.
+// needs: frame camera varyings vertex_vector targets
+// Draws triangles. What is written is the pass's own: targets().
 
 struct Corner {
     @location(0) p_lc: vec3f,
@@ -7,16 +7,6 @@ struct Corner {
     @location(2) geometric_ws: vec3f,
     @location(3) thickness_m: f32,
     @location(4) body: f32,     // number, 1 for the first
-}
-
-struct Varyings {
-    @builtin(position) @invariant clip: vec4f,
-    @location(0) p_lc: vec3f,
-    @location(1) normal_ws: vec3f,
-    @location(2) @interpolate(flat) geometric_ws: vec3f,
-    @location(3) @interpolate(flat) body: f32,
-    @location(4) thickness_m: f32,
-    @location(5) vector_ws: vec4f,
 }
 
 @vertex

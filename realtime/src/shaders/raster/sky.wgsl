@@ -1,3 +1,4 @@
+// needs: camera environment
 // The environment behind everything: one triangle over the image.
 
 @vertex

@@ -1,3 +1,4 @@
+// needs: frame
 // Beer & Lambert. The twin of absorb_none.wgsl.
 
 fn transmitted(path_m: f32, body: u32) -> vec3f {

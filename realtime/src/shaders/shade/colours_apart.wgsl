@@ -1,3 +1,4 @@
+// needs: environment absorption front trace method shade eta_dispersed
 // Red and blue take ways of their own, beside the one already traced for green.
 
 fn seen_through(pixel: vec2i, v_ws: vec3f, surface: Surface, traced: Trace) -> vec3f {

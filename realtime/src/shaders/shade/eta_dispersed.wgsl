@@ -1,3 +1,4 @@
+// needs: frame
 // An index for each of red, green and blue: `channel` says which is traced; that
 // of green is the d line's.
 

@@ -1,3 +1,4 @@
+// needs: interface front trace frame
 // Entering the body at the surface a pixel sees.
 
 struct Entered {

@@ -1,5 +1,6 @@
+// needs: environment front eye
 // A reflection from the first surface, weighted by share_at_surface().
-// The twin of reflect_none.wgsl.
+// The twin of reflect_nothing.wgsl.
 
 fn reflected_share(v_ws: vec3f, surface: Surface) -> f32 {
     return share_at_surface(v_ws, surface);

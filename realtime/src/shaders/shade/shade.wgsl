@@ -1,16 +1,6 @@
+// needs: frame camera front trace method background absorption colours reflection
+// needs: shown_cracks shown_air out_radiance out_exit out_first out_hit2 out_count
 // One pixel: what a method says of the surface in front, or the background.
-// A method is a file with
-//     fn trace(pixel: vec2i, v_ws: vec3f, surface: Surface) -> Trace
-// and what it reads is what will be drawn before it runs.
-
-struct Trace {
-    exit_ws: vec3f,             // unit direction in which the ray leaves
-    first_ws: vec3f,            // unit direction after the first interface
-    hit2_lc: vec3f,             // where it meets the second interface
-    path_m: f32,                // metres inside
-    events: u32,                // interfaces
-    flags: u32,
-}
 
 @compute @workgroup_size(8, 8)
 fn shade(@builtin(global_invocation_id) id: vec3u) {

@@ -1,3 +1,4 @@
+// needs: frame camera background out_radiance
 // No body is in the image. The twin of shade.wgsl.
 
 @compute @workgroup_size(8, 8)

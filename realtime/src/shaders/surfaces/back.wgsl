@@ -1,3 +1,4 @@
+// needs: frame
 // The surface behind: normals point outwards, away from the eye.
 
 @group(0) @binding(7) var back_normal: texture_2d<f32>;       // xyz outward, w: number of the body, 0 = none

@@ -1,3 +1,4 @@
+// needs: front
 // Opaque surfaces around the bodies, drawn before. The twin of background_sky.wgsl.
 
 @group(0) @binding(18) var background_light: texture_2d<f32>;   // w: 1 where a surface is

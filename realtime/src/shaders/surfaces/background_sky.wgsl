@@ -1,3 +1,4 @@
+// needs: environment
 // Nothing but the environment around the bodies.
 
 fn background(pixel: vec2i, v_ws: vec3f) -> vec4f {

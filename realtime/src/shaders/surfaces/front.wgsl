@@ -1,3 +1,4 @@
+// needs: frame camera geometric_normal
 // The surface a pixel's ray meets first.
 
 @group(0) @binding(4) var front_normal: texture_2d<f32>;      // xyz, w: number of the body, 0 = none

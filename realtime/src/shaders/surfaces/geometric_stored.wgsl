@@ -1,3 +1,4 @@
+// needs: front
 // Interpolated normals: the triangle's own is stored beside them.
 // The twin of geometric_same.wgsl.
 

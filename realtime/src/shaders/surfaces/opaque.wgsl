@@ -1,3 +1,4 @@
+// needs: varyings camera
 // Light from opaque surfaces: painted radiance, or Lambert's law under the
 // scene's lights, which nothing blocks; the exact renderer's formula.
 

@@ -1,3 +1,4 @@
+// needs: frame varyings peel_packed
 // Every interface is inserted where it belongs while it is drawn: each slot keeps
 // the nearer of what it has and what comes, and hands on the other. The same bits
 // whatever the order; where there is no room the farthest fall out.

@@ -1,3 +1,4 @@
+// needs: frame
 // Takes depths and normals of peel_cascade.wgsl apart. They are sorted already.
 
 @group(0) @binding(12) var<storage, read> slot_counts: array<u32>;

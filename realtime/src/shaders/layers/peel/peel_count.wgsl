@@ -1,3 +1,4 @@
+// needs: frame varyings
 // Counts the interfaces of each pixel: the depth complexity of the view.
 
 @group(0) @binding(12) var<storage, read_write> slot_counts: array<atomic<u32>>;

@@ -1,3 +1,4 @@
+// needs: frame varyings peel_packed
 // The nearest and the farthest layer in one pass, both by blending to the
 // larger: of depths between the two that were found last, and, at those two,
 // of the halves of the packed normals. Interfaces at the very same depth are one,
@@ -35,4 +36,13 @@ fn dual_normals(v: Varyings) -> vec4f {
     let halves = vec2f(vec2u(packed & 0xffffu, packed >> 16u)) + 1.0;
     return vec4f(select(vec2f(0.0), halves, depth == bounds.x),
         select(vec2f(0.0), halves, depth == bounds.y));
+}
+
+struct Targets {
+    @location(0) extremes: vec2f,
+    @location(1) normals: vec4f,
+}
+
+fn targets(v: Varyings) -> Targets {
+    return Targets(dual_extremes(v), dual_normals(v));
 }

@@ -1,3 +1,4 @@
+// needs: frame
 // Moves the far layers, which dual peeling kept in the last slots, next to the
 // near ones.
 

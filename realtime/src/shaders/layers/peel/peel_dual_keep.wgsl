@@ -1,3 +1,4 @@
+// needs: frame
 // Keeps the two layers whose normals peel_dual.wgsl has found: near ones from
 // the first slot on, far ones from the last slot back. Then the depths that it
 // found become the bounds of what is searched next.

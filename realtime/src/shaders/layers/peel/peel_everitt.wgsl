@@ -1,3 +1,4 @@
+// needs: frame varyings peel_packed
 // One layer per pass: of what lies strictly behind the layers that are kept, the
 // depth test leaves the nearest. Interfaces at the very same depth are one.
 // Everitt, "Interactive order-independent transparency", NVIDIA, 2001.
@@ -14,4 +15,14 @@ fn peeled_interface(v: Varyings) -> vec2u {
         discard;
     }
     return vec2u(depth, packed_interface(v));
+}
+
+// Linear depth decides, to its last bit: the scale is a power of two.
+struct Targets {
+    @builtin(frag_depth) exact_depth: f32,
+    @location(0) peeled: vec2u,
+}
+
+fn targets(v: Varyings) -> Targets {
+    return Targets(depth_of_m(v.p_lc) * 0x1p-64f, peeled_interface(v));
 }

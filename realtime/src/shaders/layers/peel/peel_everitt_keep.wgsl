@@ -1,3 +1,4 @@
+// needs: frame
 // Appends the layer that peel_everitt.wgsl found to those of its pixel. Where
 // there is no room left it is only counted.
 

@@ -1,3 +1,4 @@
+// needs: camera varyings surface_normal pack
 // What is kept of an interface besides its depth.
 
 fn packed_interface(v: Varyings) -> u32 {

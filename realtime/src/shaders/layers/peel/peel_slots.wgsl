@@ -1,3 +1,4 @@
+// needs: frame varyings peel_packed
 // Every interface of a pixel goes to the next free slot, in whatever order it is
 // drawn; peel_sort.wgsl sorts them. Liu et al., "Single pass depth peeling via
 // CUDA rasterizer", SIGGRAPH 2009 talks, with fragment atomics instead of CUDA.

@@ -1,3 +1,4 @@
+// needs: frame
 // Sorts the entries of each pixel by depth, then by packed normal, so that
 // coincident walls come in the same order whatever order they were drawn in.
 // Insertion sort: the lists are short and nearly sorted.

@@ -1,4 +1,5 @@
-// The back normal of the one texel under a position. The twin of back_bilinear.wgsl.
+// needs: frame back
+// The back normal of the one texel under a position. The twin of n2_filter_bilinear.wgsl.
 
 fn back_normal_near(at_px: vec2f) -> vec4f {
     let pixel = vec2i(floor(at_px));

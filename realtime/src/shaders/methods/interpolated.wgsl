@@ -1,5 +1,6 @@
-// `dx7-vertex` and `one-interface-vertex`: the vector was made at the vertices
-// and interpolated without normalising, as the fixed pipeline did.
+// needs: front trace
+// The vector was made at the vertices and interpolated without normalising, as
+// the fixed pipeline did.
 
 @group(0) @binding(9) var front_vector: texture_2d<f32>;
 

@@ -1,3 +1,4 @@
+// needs: front
 // The method refracts only.
 
 fn reflected_share(v_ws: vec3f, surface: Surface) -> f32 {

@@ -1,3 +1,4 @@
+// needs: frame back
 // The mean of the four back normals around a position; texels without a surface
 // count neither in the sum nor, below a half, at all.
 

@@ -1,0 +1,5 @@
+// No reflection.
+
+fn fresnel_share(d: vec3f, n: vec3f, eta_i: f32, eta_t: f32) -> f32 {
+    return 0.0;
+}

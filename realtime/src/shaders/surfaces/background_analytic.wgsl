@@ -1,0 +1,19 @@
+// needs: raster_analytic background_targets
+// Analytic bodies with a depth test. Their depths are computed: there is no triangle.
+
+struct AnalyticTargets {
+    @builtin(frag_depth) depth: f32,
+    @location(0) background_light: vec4f,
+    @location(1) background_depth: f32,
+}
+
+@fragment
+fn analytic_fragment(@builtin(position) at: vec4f) -> AnalyticTargets {
+    let v = analytic_surface(at);
+    let out = targets(v);
+    return AnalyticTargets(
+        depth_of_clip(v),
+        out.background_light,
+        out.background_depth,
+    );
+}

@@ -1,0 +1,17 @@
+// needs: raster_analytic normal_face_targets
+// Analytic bodies with a depth test. Their depths are computed: there is no triangle.
+
+struct AnalyticTargets {
+    @builtin(frag_depth) depth: f32,
+    @location(0) normal_face: vec4f,
+}
+
+@fragment
+fn analytic_fragment(@builtin(position) at: vec4f) -> AnalyticTargets {
+    let v = analytic_surface(at);
+    let out = targets(v);
+    return AnalyticTargets(
+        depth_of_clip(v),
+        out.normal_face,
+    );
+}

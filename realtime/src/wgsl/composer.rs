@@ -1,0 +1,118 @@
+//! From files to a shader: a file names what it needs, and what those need comes
+//! with it. A need is a file, or a choice that was made between files.
+
+use super::files::FILES;
+use super::source::Source;
+use crate::Error;
+use std::collections::BTreeMap;
+
+/// The files that stand for needs which are no files themselves.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Choices(BTreeMap<String, Source>);
+
+impl Choices {
+    /// Lets a file of this crate stand for a need.
+    ///
+    /// # Panics
+    /// If there is no such file: our mistake.
+    pub(crate) fn choose(&mut self, need: &str, file: &str) {
+        self.give(need, named(file).unwrap_or_else(|| panic!("there is no file {file}.wgsl")));
+    }
+
+    /// Lets some source stand for a need.
+    pub(crate) fn give(&mut self, need: &str, source: Source) {
+        self.0.insert(need.to_owned(), source);
+    }
+
+    /// The same with another file for a need.
+    pub(crate) fn with(&self, need: &str, file: &str) -> Self {
+        let mut changed = self.clone();
+        changed.choose(need, file);
+        changed
+    }
+
+    /// Files and everything that they need, what is needed first.
+    pub(crate) fn closure(&self, roots: &[&str]) -> Result<Vec<Source>, Error> {
+        let mut found = Vec::new();
+        let mut seen = Vec::new();
+        for root in roots {
+            self.add(root, "what is composed", &mut seen, &mut found)?;
+        }
+        Ok(found)
+    }
+
+    fn add(
+        &self,
+        need: &str,
+        needed_by: &str,
+        seen: &mut Vec<String>,
+        found: &mut Vec<Source>,
+    ) -> Result<(), Error> {
+        let source = self.0.get(need).cloned().or_else(|| named(need));
+        let source = source.ok_or_else(|| {
+            Error::Shader(format!("{needed_by} needs \"{need}\", which is no file of this program"))
+        })?;
+        if seen.contains(&source.name) {
+            return Ok(());
+        }
+        seen.push(source.name.clone());
+        for next in source.head().needs.unwrap_or_default() {
+            self.add(&next, &source.file_name(), seen, found)?;
+        }
+        found.push(source);
+        Ok(())
+    }
+}
+
+/// A file of this crate.
+pub(crate) fn named(name: &str) -> Option<Source> {
+    let (name, text) = FILES.iter().find(|(file, _)| *file == name)?;
+    Some(Source::new(name, *text))
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a failing test may panic")]
+    use super::*;
+    use std::path::Path;
+
+    fn on_disk(folder: &Path, names: &mut Vec<String>) {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                on_disk(&path, names);
+            } else {
+                names.push(path.file_stem().unwrap().to_str().unwrap().to_owned());
+            }
+        }
+    }
+
+    /// A file that is not listed would never be read, and one of two that are
+    /// called the same neither.
+    #[test]
+    fn every_file_is_listed_once() {
+        let mut found = Vec::new();
+        on_disk(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src/shaders"), &mut found);
+        let mut listed: Vec<_> = FILES.iter().map(|(name, _)| (*name).to_owned()).collect();
+        found.sort();
+        listed.sort();
+        assert_eq!(found, listed);
+        let all = listed.len();
+        listed.dedup();
+        assert_eq!(listed.len(), all);
+    }
+
+    #[test]
+    fn what_is_needed_comes_along_once_and_first() {
+        let mut choices = Choices::default();
+        choices.choose("camera", "camera_perspective");
+        choices.give("a", Source::new("a", "// needs: b camera\n"));
+        choices.give("b", Source::new("b", "// needs: a camera\n"));
+        let files = choices.closure(&["a", "b"]).unwrap();
+        let names: Vec<_> = files.iter().map(|file| file.name.as_str()).collect();
+        assert_eq!(names, ["frame", "camera_perspective", "b", "a"]);
+        choices.give("c", Source::new("c", "// needs: nothing_like_it\n"));
+        let error = choices.closure(&["c"]).unwrap_err().to_string();
+        assert!(error.contains("c.wgsl") && error.contains("nothing_like_it"), "{error}");
+    }
+}
