@@ -1,7 +1,7 @@
 //! The surface behind: the farthest of those that face away, or the nearest.
 
 use super::raster_pass::{Files, RasterPass, Sides, Target};
-use super::{Listed, Making, Pass, Ready, Wanted};
+use super::{Composed, Listed, Making, Pass, Ready, Wanted};
 use crate::Error;
 use crate::composition::inputs::Inputs;
 use crate::plan::entries::Entries;
@@ -15,7 +15,7 @@ const FILES: Files = Files { targets: "back_targets", analytic: Some("back_analy
 
 struct Back(RasterPass);
 
-fn compose(inputs: &Inputs<'_>, wanted: &Wanted<'_>) -> Result<Option<Box<dyn Pass>>, Error> {
+fn compose(inputs: &Inputs<'_>, wanted: &Wanted<'_>) -> Composed {
     let targets: Vec<_> = TARGETS.into_iter().filter(|t| wanted.image(t.name)).collect();
     if targets.is_empty() {
         return Ok(None);

@@ -11,7 +11,7 @@ mod tests;
 
 use super::pipelines::ReadyRaster;
 use super::raster_pass::{Files, RasterPass, Sides, Target};
-use super::{Listed, Maker, Making, Pass, Ready, Record, Wanted};
+use super::{Composed, Listed, Maker, Making, Pass, Ready, Record, Wanted};
 use crate::composition::chosen;
 use crate::composition::inputs::Inputs;
 use crate::drawn::frame_uniforms::{self, FrameUniform, Viewed};
@@ -48,7 +48,7 @@ struct Backdrop {
     margin: u32,
 }
 
-fn compose(inputs: &Inputs<'_>, _: &Wanted<'_>) -> Result<Option<Box<dyn Pass>>, Error> {
+fn compose(inputs: &Inputs<'_>, _: &Wanted<'_>) -> Composed {
     if !inputs.draws_backdrop() {
         return Ok(None);
     }

@@ -5,7 +5,7 @@
 
 use super::pipelines::ReadyRaster;
 use super::raster_pass::{Files, RasterPass, Sides, Target};
-use super::{Listed, Maker, Making, Pass, Ready, Record, Wanted};
+use super::{Composed, Listed, Maker, Making, Pass, Ready, Record, Wanted};
 use crate::Error;
 use crate::composition::inputs::Inputs;
 use crate::drawn::frame_uniforms::{self, FrameUniform, Viewed};
@@ -36,7 +36,7 @@ struct CracksAndAir {
 }
 
 /// None if the scene has neither cracks nor air, or the method shows none.
-fn compose(inputs: &Inputs<'_>, _: &Wanted<'_>) -> Result<Option<Box<dyn Pass>>, Error> {
+fn compose(inputs: &Inputs<'_>, _: &Wanted<'_>) -> Composed {
     if inputs.is_off_screen() || !(inputs.shows_cracks() || inputs.shows_air()) {
         return Ok(None);
     }

@@ -2,7 +2,7 @@
 //! method reads of it.
 
 use super::raster_pass::{Files, RasterPass, Sides, Target};
-use super::{Listed, Making, Pass, Ready, Wanted};
+use super::{Composed, Listed, Making, Pass, Ready, Wanted};
 use crate::Error;
 use crate::composition::inputs::Inputs;
 use crate::plan::entries::Entries;
@@ -25,7 +25,7 @@ const FILES: Files = Files { targets: "front_targets", analytic: Some("front_ana
 
 struct Front(RasterPass);
 
-fn compose(inputs: &Inputs<'_>, wanted: &Wanted<'_>) -> Result<Option<Box<dyn Pass>>, Error> {
+fn compose(inputs: &Inputs<'_>, wanted: &Wanted<'_>) -> Composed {
     let targets: Vec<_> = TARGETS.into_iter().filter(|t| wanted.image(t.name)).collect();
     if targets.is_empty() {
         return Ok(None);

@@ -34,10 +34,13 @@ pub(crate) trait Pass {
     fn ready(&self, making: &Making<'_>) -> Result<Ready, Error>;
 }
 
+/// A pass, if it is needed.
+pub(crate) type Composed = Result<Option<Box<dyn Pass>>, Error>;
+
 /// How a pass comes into a frame: a row of the list.
 pub(crate) struct Listed {
     /// None if nothing that runs later reads what it would write.
-    pub(crate) compose: fn(&Inputs<'_>, &Wanted<'_>) -> Result<Option<Box<dyn Pass>>, Error>,
+    pub(crate) compose: fn(&Inputs<'_>, &Wanted<'_>) -> Composed,
     /// What a plan says where it is not there.
     pub(crate) absent: fn(&mut Entries<'_>),
 }

@@ -3,7 +3,7 @@
 
 use super::pipelines::ReadyRaster;
 use super::raster_pass::{Files, RasterPass, Sides, Target};
-use super::{Listed, Making, Pass, Ready, Record, Wanted};
+use super::{Composed, Listed, Making, Pass, Ready, Record, Wanted};
 use crate::Error;
 use crate::composition::inputs::Inputs;
 use crate::drawn::frame_uniforms::FrameUniform;
@@ -28,7 +28,7 @@ const CUBE: &str = "normal_faces";
 /// One face's pass: the farthest surface in each direction, whichever side it shows.
 struct NormalCube(RasterPass);
 
-fn compose(inputs: &Inputs<'_>, wanted: &Wanted<'_>) -> Result<Option<Box<dyn Pass>>, Error> {
+fn compose(inputs: &Inputs<'_>, wanted: &Wanted<'_>) -> Composed {
     if !wanted.reads(CUBE) {
         return Ok(None);
     }

@@ -1,7 +1,7 @@
 //! What every pixel shows: the method at work, or what is around the bodies.
 
 use super::pipelines::OverPixels;
-use super::{Listed, Making, Pass, Ready, Record, Wanted};
+use super::{Composed, Listed, Making, Pass, Ready, Record, Wanted};
 use crate::Error;
 use crate::composition::chosen::OUTPUTS;
 use crate::composition::inputs::Inputs;
@@ -25,7 +25,7 @@ struct Shade {
     reads_environment: bool,
 }
 
-fn compose(inputs: &Inputs<'_>, _: &Wanted<'_>) -> Result<Option<Box<dyn Pass>>, Error> {
+fn compose(inputs: &Inputs<'_>, _: &Wanted<'_>) -> Composed {
     let roots: &[&str] = if inputs.is_off_screen() {
         &["shade_background"]
     } else if inputs.may_need_anything() {

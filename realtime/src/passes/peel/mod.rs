@@ -9,7 +9,7 @@ mod strategy;
 pub(crate) use layer::read;
 
 use super::pipelines::{OverPixels, ReadyRaster};
-use super::{Listed, Maker, Making, Pass, Ready, Record, Wanted};
+use super::{Composed, Listed, Maker, Making, Pass, Ready, Record, Wanted};
 use crate::composition::inputs::Inputs;
 use crate::composition::layer_images;
 use crate::drawn::frame_uniforms::{self, Viewed};
@@ -31,7 +31,7 @@ pub(crate) const LISTED: Listed = Listed { compose, absent };
 /// How many interfaces each pixel has: what others look at layers by.
 const COUNTS: &str = "slot_counts";
 
-fn compose(inputs: &Inputs<'_>, wanted: &Wanted<'_>) -> Result<Option<Box<dyn Pass>>, Error> {
+fn compose(inputs: &Inputs<'_>, wanted: &Wanted<'_>) -> Composed {
     if !wanted.reads(COUNTS) && !layer_images::asked_for(inputs.request) {
         return Ok(None);
     }
