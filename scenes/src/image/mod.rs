@@ -21,5 +21,5 @@ mod write;
 
 pub use error::Error;
 pub use picture::{Alpha, Encoding, Picture};
-pub use read::{open, read, read_lat_long};
+pub use read::{file_of, open, read, read_lat_long};
 pub use write::{Preview, ToneMap, write_exr, write_exr_with, write_png};

@@ -64,6 +64,12 @@ pub fn read_lat_long(path: &Path) -> Result<(LatLong, Vec<String>), Error> {
     Ok((lat_long, warnings.into_iter().map(|text| format!("{name}: {text}")).collect()))
 }
 
+/// The file of a path that may name a layer, `FILE:LAYER`.
+#[must_use]
+pub fn file_of(path: &Path) -> PathBuf {
+    with_layer(path).0
+}
+
 /// `FILE:LAYER`, where there is no file of the whole name.
 fn with_layer(path: &Path) -> (PathBuf, Option<String>) {
     let text = path.to_string_lossy();

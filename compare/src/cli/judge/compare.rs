@@ -26,7 +26,12 @@ pub(in crate::cli) struct Args {
     test: PathBuf,
     /// Exposures of HDR-FLIP: first and last in stops, and how many
     /// [default: from the reference]
-    #[arg(long, value_name = "START,STOP,COUNT", value_parser = exposures)]
+    #[arg(
+        long,
+        value_name = "START,STOP,COUNT",
+        value_parser = exposures,
+        allow_hyphen_values = true
+    )]
     flip_exposures: Option<Exposures>,
     /// What transparent pixels lie over: over-black, over-white, or ignore to take
     /// colours as they are stored

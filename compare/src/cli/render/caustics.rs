@@ -145,7 +145,10 @@ pub(in crate::cli) fn read(scene: &Scene, text: &str, frame: u32) -> Result<Caus
     };
     let path = Path::new(path);
     let layers = scenes::image::read(path)?;
-    let name = LayerName::Buffer(IRRADIANCE.to_owned());
+    // A layer that was chosen by name is the radiance.
+    let is_chosen = scenes::image::file_of(path) != path;
+    let name =
+        if is_chosen { LayerName::Radiance } else { LayerName::Buffer(IRRADIANCE.to_owned()) };
     let Some(layer) = layers.get(&name).filter(|layer| layer.channels == 3) else {
         let why = "it has no layer \"irradiance\"\nmake it with `snell caustics`".to_owned();
         return Err(Error::Image { path: path.to_owned(), why });

@@ -62,5 +62,5 @@ pub(super) fn resolve(
 
 /// The file the environment is read from.
 pub(super) fn file(environment: &Spanned<EnvironmentText>, base: &Path) -> Option<PathBuf> {
-    environment.get_ref().map.as_ref().map(|map| base.join(map.get_ref()))
+    environment.get_ref().map.as_ref().map(|map| image::file_of(&base.join(map.get_ref())))
 }

@@ -40,7 +40,7 @@ impl Codec {
             8 => Self::Dwa { lines: 32 },
             9 => Self::Dwa { lines: 256 },
             10 | 11 => return Err("HTJ2K".to_owned()),
-            12 => return Err("ZSTD".to_owned()),
+            13 => return Err("ZSTD".to_owned()),
             other => return Err(format!("number {other}")),
         })
     }

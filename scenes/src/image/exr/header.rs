@@ -89,6 +89,11 @@ pub(super) struct Headers {
     pub(super) end: usize,
 }
 
+/// The version that a file says it has; 1 and 2 are read.
+pub(super) fn version(bytes: &[u8]) -> Option<u8> {
+    bytes.get(4).copied()
+}
+
 /// A place in the bytes of a file.
 pub(super) struct Cursor<'a> {
     pub(super) bytes: &'a [u8],
@@ -138,9 +143,6 @@ impl Headers {
     pub(super) fn parse(bytes: &[u8]) -> Result<Self, String> {
         let mut cursor = Cursor { bytes, at: 4 };
         let version = cursor.i32().ok_or("it ends before its version")? as u32;
-        if version & 0xff != 2 {
-            return Err(format!("its version {} is unknown", version & 0xff));
-        }
         let [is_tiled, is_deep, is_multi_part] = [9, 11, 12].map(|bit| version >> bit & 1 == 1);
         let mut parts = Vec::new();
         loop {

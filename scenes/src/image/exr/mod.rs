@@ -44,6 +44,10 @@ pub(super) fn read(
     wanted: Wanted,
     alpha: Alpha,
 ) -> Result<Picture, Error> {
+    if let Some(version @ 3..) = header::version(bytes) {
+        let advice = "write it as version 2, as OpenEXR does since 2013";
+        return Err(unsupported(path, format!("is OpenEXR of version {version}"), advice));
+    }
     let headers = Headers::parse(bytes).map_err(|reason| broken(path, reason))?;
     let parts = &headers.parts;
     if parts.iter().any(|part| part.is_deep) {

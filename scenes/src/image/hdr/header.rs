@@ -86,10 +86,11 @@ impl Header {
 }
 
 impl Lines {
-    /// Takes one `NAME=value`. Others, and comments, say nothing of pixels.
+    /// Takes one `NAME=value`. Others, comments, and lines that are indented (they
+    /// are of images that this one was made of) say nothing of its pixels.
     fn obey(&mut self, path: &Path, text: &str) -> Result<(), Error> {
         let Some((name, value)) = text.split_once('=') else { return Ok(()) };
-        match name.trim() {
+        match name.trim_end() {
             "FORMAT" => match value.trim() {
                 "32-bit_rle_rgbe" => self.is_xyz = false,
                 "32-bit_rle_xyze" => self.is_xyz = true,

@@ -21,16 +21,23 @@ pub(in super::super) fn read(
     alpha: Alpha,
 ) -> Result<Picture, Error> {
     let wrong = |error: image::ImageError| from_decoder(path, &error);
+    let file = Claim { path, size_px: [1, 1], file_bytes: bytes.len() as u64 };
+    if format == ImageFormat::Tiff
+        && let Some(raster) = tiff::floats(&file, bytes)?
+    {
+        return Ok(raster.finish(alpha));
+    }
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     // The claim is weighed here.
     reader.no_limits();
     let mut decoder = reader.into_decoder().map_err(wrong)?;
     let (width, height) = decoder.dimensions();
     let size_px = [u64::from(width), u64::from(height)];
-    let claim = Claim { path, size_px, file_bytes: bytes.len() as u64 };
+    let claim = Claim { size_px, ..file };
     claim.weigh(decoder.total_bytes(), bytes.len() as u64, MOST_PER_BYTE)?;
     let mut warnings = Vec::new();
-    if matches!(decoder.original_color_type(), ExtendedColorType::Cmyk8) {
+    let is_cmyk = matches!(decoder.original_color_type(), ExtendedColorType::Cmyk8);
+    if is_cmyk || format == ImageFormat::Jpeg && components(bytes) == Some(4) {
         warnings.push("its inks (CMYK) are made RGB without a profile".to_owned());
     }
     let profile = decoder.icc_profile().ok().flatten();
@@ -53,6 +60,19 @@ pub(in super::super) fn read(
     let is_multiplied = tags.is_multiplied;
     let raster = Raster { size_px, colours, alpha: alpha_plane, is_multiplied, space, warnings };
     Ok(raster.finish(alpha))
+}
+
+/// How many components the frame header of a JPEG file tells (ITU-T T.81, B.2.2).
+fn components(bytes: &[u8]) -> Option<u8> {
+    let mut at = 2;
+    loop {
+        let [0xff, marker, high, low, ..] = *bytes.get(at..)? else { return None };
+        let is_frame = matches!(marker, 0xc0..=0xcf) && !matches!(marker, 0xc4 | 0xc8 | 0xcc);
+        if is_frame {
+            return bytes.get(at + 9).copied();
+        }
+        at += 2 + usize::from(u16::from_be_bytes([high, low])).max(2);
+    }
 }
 
 /// The numbers of an image, integers divided by their largest value.

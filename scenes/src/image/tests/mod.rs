@@ -1,7 +1,11 @@
 //! Images survive the disk, and what is broken is refused.
 #![allow(clippy::unwrap_used, reason = "a failing test may panic")]
 
+mod claims;
+mod damage;
 mod frames;
+mod metadata;
+mod names;
 mod openexr;
 mod radiance;
 

@@ -7,7 +7,7 @@ fn file(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/exr").join(name)
 }
 
-fn shown(path: &Path) -> Picture {
+pub(super) fn shown(path: &Path) -> Picture {
     open(path, Alpha::default()).unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -16,7 +16,7 @@ fn radiance(picture: &Picture) -> &Layer {
 }
 
 /// The largest difference between an image and a function of column and row.
-fn farthest(picture: &Picture, expected: impl Fn(f64, f64) -> [f64; 3]) -> f64 {
+pub(super) fn farthest(picture: &Picture, expected: impl Fn(f64, f64) -> [f64; 3]) -> f64 {
     let [width, _] = picture.layers.resolution_px;
     let pixels = radiance(picture).data.chunks_exact(3).zip(0..);
     let worst = pixels.flat_map(|(pixel, place): (&[f64], u32)| {
@@ -122,7 +122,7 @@ fn deep_data_is_refused_by_name() {
 }
 
 /// Channels of constants, written by the `exr` crate: name and value.
-fn constants(path: &Path, channels: &[(&str, f32)], size: (usize, usize)) {
+pub(super) fn constants(path: &Path, channels: &[(&str, f32)], size: (usize, usize)) {
     use ::exr::prelude::*;
     let list = channels.iter().map(|(name, value)| {
         let values = vec![f16::from_f32(*value); size.0 * size.1];
@@ -134,59 +134,9 @@ fn constants(path: &Path, channels: &[(&str, f32)], size: (usize, usize)) {
     Image::from_layer(layer).write().to_file(path).unwrap();
 }
 
-fn first_pixel(path: &Path) -> [f64; 3] {
+pub(super) fn first_pixel(path: &Path) -> [f64; 3] {
     let picture = shown(path);
     radiance(&picture).data[..3].try_into().unwrap()
-}
-
-#[test]
-fn the_only_colours_are_the_image_whatever_they_are_called() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("a.exr");
-    for names in [
-        ["ViewLayer.Combined.R", "ViewLayer.Combined.G", "ViewLayer.Combined.B"],
-        ["beauty.R", "beauty.G", "beauty.B"],
-        ["C.r", "C.g", "C.b"],
-        ["r", "g", "b"],
-        ["R", "G", "B"],
-        ["red", "green", "blue"],
-    ] {
-        let [r, g, b] = names;
-        let channels = [(r, 0.25), (g, 0.5), (b, 2.0), ("ViewLayer.Depth.Z", 9.0), ("Z", 7.0)];
-        constants(&path, &channels, (3, 2));
-        assert_eq!(first_pixel(&path), [0.25, 0.5, 2.0], "{names:?}");
-    }
-    constants(&path, &[("Y", 0.5), ("A", 1.0)], (3, 2));
-    assert_eq!(first_pixel(&path), [0.5; 3]);
-}
-
-#[test]
-fn where_several_layers_could_be_meant_one_is_chosen_by_name() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("a.exr");
-    let colour = |layer: &str, value: f32| {
-        ["R", "G", "B"].map(|component| (format!("{layer}.{component}"), value))
-    };
-    let all: Vec<_> = [colour("beauty", 0.5), colour("glass.direct", 0.25)].concat();
-    let all: Vec<(&str, f32)> = all.iter().map(|(name, value)| (&**name, *value)).collect();
-    constants(&path, &[&all[..], &[("depth.Z", 4.0)]].concat(), (2, 2));
-    let error = open(&path, Alpha::default()).unwrap_err().to_string();
-    for word in ["beauty", "glass.direct", "a.exr:beauty"] {
-        assert!(error.contains(word), "{error}");
-    }
-    let layer = |name: &str| PathBuf::from(format!("{}:{name}", path.display()));
-    assert_eq!(first_pixel(&layer("beauty")), [0.5; 3]);
-    assert_eq!(first_pixel(&layer("glass.direct")), [0.25; 3]);
-    assert_eq!(first_pixel(&layer("direct")), [0.25; 3]);
-    assert_eq!(first_pixel(&layer("depth")), [4.0; 3]);
-    assert_eq!(first_pixel(&layer("beauty.G")), [0.5; 3]);
-    let error = open(&layer("nothing"), Alpha::default()).unwrap_err().to_string();
-    assert!(error.contains("no layer nothing") && error.contains("depth (Z)"), "{error}");
-    // Blender's name for the image goes before its other passes.
-    let all: Vec<_> = [colour("V.Combined", 0.5), colour("V.DiffCol", 0.25)].concat();
-    let all: Vec<(&str, f32)> = all.iter().map(|(name, value)| (&**name, *value)).collect();
-    constants(&path, &all, (2, 2));
-    assert_eq!(first_pixel(&path), [0.5; 3]);
 }
 
 #[test]
@@ -247,84 +197,4 @@ fn colours_of_openexr_are_multiplied_by_their_opacity() {
         assert_eq!(radiance(&picture).data[..3], expected, "{alpha:?}");
         assert_eq!(picture.alpha.unwrap()[0], 0.5);
     }
-}
-
-/// An OpenEXR file of float R, G, B in blocks of 16 rows that are all this one.
-fn of_one_block(size_px: [u32; 2], packed: &[u8]) -> Vec<u8> {
-    let window = [0, 0, size_px[0] - 1, size_px[1] - 1].map(u32::to_le_bytes).concat();
-    let channel =
-        |name: u8| [&[name, 0, 2, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0][..]].concat();
-    let channels = [channel(b'B'), channel(b'G'), channel(b'R'), vec![0]].concat();
-    let mut bytes = [0x76, 0x2f, 0x31, 0x01, 2, 0, 0, 0].to_vec();
-    for (name, kind, value) in [
-        ("channels", "chlist", &channels),
-        ("compression", "compression", &vec![3]),
-        ("dataWindow", "box2i", &window),
-        ("displayWindow", "box2i", &window),
-    ] {
-        bytes.extend([name, "\0", kind, "\0"].concat().bytes());
-        bytes.extend((value.len() as u32).to_le_bytes());
-        bytes.extend(value);
-    }
-    bytes.push(0);
-    let count = size_px[1].div_ceil(16);
-    let first = bytes.len() + 8 * count as usize;
-    let offsets = (0..count as usize).map(|i| (first + i * (8 + packed.len())) as u64);
-    bytes.extend(offsets.flat_map(u64::to_le_bytes));
-    for block in 0..count {
-        bytes.extend((16 * block).to_le_bytes());
-        bytes.extend((packed.len() as u32).to_le_bytes());
-        bytes.extend(packed);
-    }
-    bytes
-}
-
-/// An image of one value packs 1000 to 1, which is what deflate can. A file of a
-/// tenth of that is refused before memory is reserved.
-#[test]
-fn a_valid_image_of_one_value_is_read_and_a_claim_is_not() {
-    use std::io::Write;
-    let size_px = [8192, 4096];
-    // Black: differences of 0 are 128, and the first byte is itself.
-    let mut row = vec![128; 16 * 12 * 8192];
-    row[0] = 0;
-    let mut deflated = flate2::write::ZlibEncoder::new(Vec::new(), flate2::Compression::best());
-    deflated.write_all(&row).unwrap();
-    let packed = deflated.finish().unwrap();
-    let path = Path::new("constant.exr");
-    let located = |bytes: &[u8]| {
-        let (size_px, file_bytes) = (size_px.map(u64::from), bytes.len() as u64);
-        crate::image::exr::located(&claim::Claim { path, size_px, file_bytes }, bytes)
-    };
-    let valid = of_one_block(size_px, &packed);
-    assert!((380_000..440_000).contains(&valid.len()), "{}", valid.len());
-    assert_eq!(located(&valid).unwrap(), 256);
-    let error = located(&of_one_block(size_px, &packed[..140])).unwrap_err().to_string();
-    assert!(error.contains("8192 x 4096 pixels in 4") && error.contains("too short"), "{error}");
-    // The same pixels, fewer of them, are really unpacked.
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("small.exr");
-    std::fs::write(&path, of_one_block([8192, 32], &packed)).unwrap();
-    assert_eq!(farthest(&shown(&path), |_, _| [0.0; 3]), 0.0);
-}
-
-/// 10^9 pixels in 40 KB, and a small picture in the corner of a huge black one.
-#[test]
-fn claims_are_refused_before_memory_is_reserved() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("claim.exr");
-    let mut bytes = of_one_block([32_000, 32_000], &[0; 10]);
-    bytes.resize(40_000, 0);
-    std::fs::write(&path, &bytes).unwrap();
-    let error = open(&path, Alpha::default()).unwrap_err().to_string();
-    assert!(error.contains("claims 32000 x 32000 pixels in 40000 bytes"), "{error}");
-    constants(&path, &[("R", 0.5), ("G", 0.5), ("B", 0.5)], (3, 2));
-    let bytes = std::fs::read(&path).unwrap();
-    let name = b"displayWindow\0box2i\0";
-    let at = bytes.windows(name.len()).position(|w| w == name).unwrap() + name.len() + 4 + 8;
-    let mut speck = bytes.clone();
-    speck[at..at + 8].copy_from_slice(&[20_000i32.to_le_bytes(), 20_000i32.to_le_bytes()].concat());
-    std::fs::write(&path, &speck).unwrap();
-    let error = open(&path, Alpha::default()).unwrap_err().to_string();
-    assert!(error.contains("crop the display window"), "{error}");
 }

@@ -53,7 +53,7 @@ fn exposures_and_colour_corrections_are_divided_out() {
     let folder = tempfile::tempdir().unwrap();
     let expected = plain(folder.path());
     let path = folder.path().join("a.hdr");
-    let lines = "EXPOSURE=8\nEXPOSURE= 0.5\nCOLORCORR=1 2 4\nCOLORCORR= 1 1 0.5\n";
+    let lines = "\tEXPOSURE=3\nEXPOSURE=8\nEXPOSURE= 0.5\nCOLORCORR=1 2 4\nCOLORCORR= 1 1 0.5\n";
     write(&path, &format!("#?RADIANCE\n{lines}\n-Y 3 +X 8\n"), &pixels().concat());
     for (place, (found, expected)) in colours(&path).iter().zip(expected).enumerate() {
         assert_eq!(found * 4.0 * [1.0, 2.0, 2.0][place % 3], expected);
