@@ -6,9 +6,12 @@ mod shots;
 
 use common::{furnace, object};
 use glam::{DVec3, DVec4};
+use reference::{Level, Request, render};
+use scenes::layer::flag;
 use scenes::scene::Normals;
-use scenes::{Mesh, Scene, Shape};
+use scenes::{LayerName, Mesh, Projection, Scene, Shape};
 use shots::shoot;
+use test_support::view;
 
 fn solid(half_extent_m: DVec3, mesh: bool, eta: f64) -> Scene {
     let shape = if mesh {
@@ -74,6 +77,42 @@ fn four_hundred_total_reflections_in_a_rod_lose_nothing() {
         assert!(shot.events >= 400, "{}", shot.events);
         let off = (shot.exit.abs() - shot.sent.abs()).abs().max_element();
         assert!(off < 1e-12, "{} events: {off}", shot.events);
+    }
+}
+
+/// Unfolded, the way through a rod is a straight line, and each plane x or y = k + ½
+/// that it crosses is a reflection. Nothing is counted twice, and a limit of just so
+/// many events lets it pass.
+#[test]
+fn a_rod_reflects_as_often_as_its_unfolded_way_crosses_walls() {
+    for mesh in [false, true] {
+        let mut scene = solid(DVec3::new(0.5, 0.5, 400.0), mesh, 1.5);
+        let d = DVec3::new(-300.0, -30.0, -600.0).normalize();
+        scene.camera.eye = DVec3::new(300.0, 30.0, 1000.0);
+        scene.camera.target = DVec3::new(0.0, 0.0, 400.0);
+        scene.camera.projection = Projection::Orthographic { height_m: 1e-300 };
+        let inside = DVec3::new(d.x / 1.5, d.y / 1.5, 0.0);
+        let length_m = 800.0 / (1.0 - inside.length_squared()).sqrt();
+        let across = (inside * length_m).abs().round();
+        let reflections = across.x + across.y;
+        let flags = LayerName::Flags;
+        let path = LayerName::Path("glass".to_owned());
+        let layers = [LayerName::Events, LayerName::TotalReflections, flags, path];
+        let chain = |most: f64| {
+            let mut request = Request::new(view(1, 1, &layers), Level::R0);
+            request.restriction.max_events = most as u32;
+            let layers = render(&scene, &request).unwrap().layers;
+            layers.list.iter().map(|layer| layer.data[0]).collect::<Vec<_>>()
+        };
+        assert!(reflections > 270.0, "{reflections}");
+        for most in [20_000.0, reflections + 2.0] {
+            let found = chain(most);
+            assert_eq!(found[..3], [reflections + 2.0, reflections, 0.0], "{mesh}");
+            assert!((found[3] - length_m).abs() < 1e-9, "{found:?} {length_m}");
+        }
+        // The control: one event less and the chain is lost.
+        let lost = f64::from(flag::CAP | flag::LOST);
+        assert_eq!(chain(reflections + 1.0)[2], lost);
     }
 }
 

@@ -4,7 +4,7 @@ use crate::receiver::face::Face;
 use crate::receiver::map::Balance;
 use crate::sampling::sobol::Points;
 use crate::transport::media_optics::{MediaOptics, Side};
-use crate::transport::path::{Met, Path};
+use crate::transport::path::Met;
 use crate::transport::tracer::Tracer;
 use crate::world::crossing::Crossing;
 use crate::world::flight::Flight;
@@ -140,7 +140,7 @@ fn follow<W: Winding, const LENGTHS: bool>(
     optics: &MediaOptics,
     scratch: &mut Scratch,
 ) -> (DVec3, Ending) {
-    let mut path = Path::new(flight, ());
+    let mut path = tracer.path(flight, ());
     let ending = loop {
         match tracer.meet::<W, _, LENGTHS>(&mut path, optics, scratch) {
             Met::Environment => break Ending::Environment,

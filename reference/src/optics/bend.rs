@@ -23,6 +23,12 @@ pub(crate) struct SurfaceNormals {
     pub(crate) shading: DVec3,
 }
 
+impl SurfaceNormals {
+    pub(crate) fn are_apart(&self) -> bool {
+        self.shading != self.geometric
+    }
+}
+
 /// Bends a ray at a boundary.
 ///
 /// If the shading normal does not face the ray, or sends either continuation to
@@ -43,7 +49,7 @@ pub(crate) fn bend(
 ) -> Bend {
     let face = |outward: DVec3| if entering { outward } else { -outward };
     let (flat, smooth) = (face(normals.geometric), face(normals.shading));
-    if normals.shading != normals.geometric {
+    if normals.are_apart() {
         if d.dot(smooth) < 0.0 {
             let bent = bend_at(d, smooth, [eta_i, eta_t], model);
             let right_side = bent.reflected.dot(flat) > 0.0

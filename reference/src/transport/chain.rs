@@ -51,28 +51,27 @@ impl Tracer<'_> {
         let mut chain = Chain::default();
         if LENGTHS {
             // The last is air that no medium of the scene stands for.
-            chain.lengths = vec![0.0; optics.absorption.len() + 1];
+            chain.lengths = vec![0.0; optics.absorption_per_m.len() + 1];
         }
-        let mut path = Path::new(flight, ());
+        let mut path = self.path(flight, chain);
         loop {
             let met = self.meet::<W, _, LENGTHS>(&mut path, optics, scratch);
+            let chain = &mut path.so_far.own;
             if LENGTHS {
                 for (medium, length_m) in &scratch.stretches {
                     chain.lengths[usize::from(medium.0)] += length_m;
                 }
             }
             chain.met |= !matches!(met, Met::Environment);
-            chain.events = path.so_far.events;
             let Met::Boundary(fork) = met else {
-                self.end::<W, UNIFORM>(&mut chain, &path, &met);
-                return chain;
+                return self.end::<W, UNIFORM>(path, &met);
             };
             chain.total_reflections += u32::from(fork.is_total());
+            chain.flags |= if fork.bend.geometric { flag::GEOMETRIC_NORMAL } else { 0 };
             let again = path.go_on(&fork, Side::Transmitted, optics);
-            if fork.bend.geometric || again {
-                chain.flags |= flag::GEOMETRIC_NORMAL;
-            }
-            match chain.events {
+            let chain = &mut path.so_far.own;
+            chain.flags |= if again { flag::GEOMETRIC_NORMAL } else { 0 };
+            match path.so_far.events {
                 1 => chain.first = path.flight.direction,
                 2 => chain.hit2 = path.flight.origin,
                 _ => {}
@@ -80,14 +79,10 @@ impl Tracer<'_> {
         }
     }
 
-    /// What a chain brings from where it ends.
-    fn end<W: Winding, const UNIFORM: bool>(
-        &self,
-        chain: &mut Chain,
-        path: &Path<W, ()>,
-        met: &Met<W>,
-    ) {
-        let (flight, tint) = (&path.flight, path.so_far.tint);
+    /// A chain where it ends, and what it brings from there.
+    fn end<W: Winding, const UNIFORM: bool>(&self, path: Path<W, Chain>, met: &Met<W>) -> Chain {
+        let (flight, tint) = (path.flight, path.so_far.tint);
+        let mut chain = Chain { events: path.so_far.events, ..path.so_far.own };
         match met {
             Met::Environment => {
                 chain.radiance = tint * self.environment::<UNIFORM>(flight.direction);
@@ -95,9 +90,10 @@ impl Tracer<'_> {
                     (chain.exit, chain.exit_position) = (flight.direction, flight.origin);
                 }
             }
-            Met::Opaque(crossing) => chain.radiance = tint * self.shade(flight, crossing),
+            Met::Opaque(crossing) => chain.radiance = tint * self.shade(&flight, crossing),
             Met::OneTooMany => chain.flags |= flag::CAP | flag::LOST,
             Met::Boundary(_) => {}
         }
+        chain
     }
 }

@@ -14,8 +14,8 @@ use scenes::{MediumId, Scene};
 #[derive(Clone, Debug)]
 pub(crate) struct MediaOptics {
     pub(crate) indices: Indices,
-    /// Per medium, per metre.
-    pub(crate) absorption: Vec<DVec3>,
+    /// By medium.
+    pub(crate) absorption_per_m: Vec<DVec3>,
     pub(crate) fresnel: Fresnel,
 }
 
@@ -30,7 +30,7 @@ impl MediaOptics {
         };
         Self {
             indices: Indices { eta: medium.iter().map(eta_of).collect(), medium },
-            absorption: scene.media.iter().map(|medium| medium.absorption_per_m).collect(),
+            absorption_per_m: scene.media.iter().map(|medium| medium.absorption_per_m).collect(),
             fresnel,
         }
     }
@@ -47,7 +47,8 @@ impl MediaOptics {
     /// Transmittance of the stretches of a path, per channel.
     pub(crate) fn transmittance(&self, stretches: &[(MediumId, f64)]) -> DVec3 {
         let depth = stretches.iter().fold(DVec3::ZERO, |sum, (medium, length_m)| {
-            let per_m = self.absorption.get(usize::from(medium.0)).copied().unwrap_or_default();
+            let per_m =
+                self.absorption_per_m.get(usize::from(medium.0)).copied().unwrap_or_default();
             // Zero times an infinite length is nothing absorbed.
             sum + DVec3::select(per_m.cmpeq(DVec3::ZERO), DVec3::ZERO, per_m * *length_m)
         });

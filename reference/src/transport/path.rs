@@ -59,6 +59,12 @@ impl<W> Fork<W> {
 }
 
 impl Tracer<'_> {
+    /// A path at its start.
+    pub(crate) fn path<W: Winding, S: Clone>(&self, flight: Flight<W>, own: S) -> Path<W, S> {
+        let so_far = SoFar { tint: DVec3::ONE, events: 0, own };
+        Path { flight, so_far, restart: Restart::new(self.may_trap) }
+    }
+
     /// Follows a path to what it meets next. With `LENGTHS`, media absorb on the
     /// way and `scratch.stretches` says what it passed through.
     #[inline(always)]
@@ -70,6 +76,7 @@ impl Tracer<'_> {
     ) -> Met<W> {
         let interfaces = self.restriction.max_interfaces.unwrap_or(u32::MAX);
         let end = if path.so_far.events >= interfaces {
+            scratch.stretches.clear();
             End::Environment
         } else {
             self.world.follow::<W, LENGTHS>(&path.flight, &optics.indices, scratch)
@@ -95,12 +102,6 @@ impl Tracer<'_> {
 }
 
 impl<W: Winding, S: Clone> Path<W, S> {
-    /// A path at its start.
-    pub(crate) fn new(flight: Flight<W>, own: S) -> Self {
-        let so_far = SoFar { tint: DVec3::ONE, events: 0, own };
-        Self { flight, so_far, restart: Restart::new() }
-    }
-
     /// Goes on at one side of a boundary; under total reflection there is only
     /// one. True if that was one total reflection too many: the path is then back
     /// at an earlier boundary, behind it, with what it had come through there.
@@ -110,11 +111,10 @@ impl<W: Winding, S: Clone> Path<W, S> {
         let incoming = self.flight.direction;
         self.flight = continuation(event, bend, side);
         if fork.is_total() {
-            let Some((flight, so_far)) = self.restart.total_reflection(optics) else {
+            let Some((flight, so_far)) = self.restart.total_reflection(event, optics) else {
                 return false;
             };
-            let events = self.so_far.events;
-            (self.flight, self.so_far) = (flight, SoFar { events, ..so_far });
+            (self.flight, self.so_far) = (flight, so_far);
             return true;
         }
         self.restart.remember(event, incoming, side, &self.so_far, optics);

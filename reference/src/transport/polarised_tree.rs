@@ -62,7 +62,7 @@ impl Tracer<'_> {
         let mut sum = Stokes::default();
         let dropping = Dropping { cut, internal: self.restriction.internal_reflection };
         let start = Polarisation { mueller: DMat4::IDENTITY, axis };
-        let mut waiting = vec![Path::new(flight, start)];
+        let mut waiting = vec![self.path(flight, start)];
         while let Some(mut path) = waiting.pop() {
             let first = path.so_far.events == 0;
             let met = self.meet::<W, _, LENGTHS>(&mut path, optics, scratch);
@@ -107,7 +107,7 @@ fn branch<W: Winding>(
         let mut next = path.clone();
         next.so_far.own = Polarisation { mueller, axis };
         if next.go_on(fork, side, optics) {
-            next.so_far.own.turn_to(next.flight.direction);
+            next.so_far.own.start_again(next.flight.direction, mueller);
         }
         waiting.push(next);
     };
@@ -145,9 +145,15 @@ fn boundary<W: Winding>(d: DVec3, fork: &Fork<W>, optics: &MediaOptics) -> (Boun
 }
 
 impl Polarisation {
-    /// Keeps the matrix for a ray that goes another way than it was made for. The
-    /// axis is turned along, so that no light is gained or lost.
-    fn turn_to(&mut self, direction: DVec3) {
+    /// Makes the matrix of an earlier boundary that of a path which starts again
+    /// there, into another direction, from where its matrix was `now`. The path may
+    /// have branched in between: it keeps the weight that it has now, and with it the
+    /// light that comes from everywhere alike.
+    fn start_again(&mut self, direction: DVec3, now: DMat4) {
+        let then = self.mueller.x_axis.x;
+        if then > 0.0 {
+            self.mueller *= now.x_axis.x / then;
+        }
         let across = self.axis - direction * self.axis.dot(direction);
         self.axis = across.try_normalize().unwrap_or_else(|| direction.any_orthonormal_vector());
     }

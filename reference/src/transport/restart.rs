@@ -3,8 +3,9 @@
 //! Real surfaces preserve phase space, so what enters a body leaves it again
 //! (almost surely). Interpolated normals do not: a path can be caught in an
 //! orbit of total reflections without end. A path that has been totally
-//! reflected [`PATIENCE`] times in a row therefore goes back to the event
-//! before and is followed from there with geometric normals, which do.
+//! reflected [`PATIENCE`] times in a row, and not by geometric normals alone,
+//! therefore goes back to the event before and is followed from there with
+//! geometric normals, which do. What it came through since is forgotten.
 
 use super::media_optics::{MediaOptics, Side, continuation};
 use crate::optics::bend::SurfaceNormals;
@@ -21,7 +22,10 @@ const PATIENCE: u32 = 64;
 pub(crate) struct Restart<W, T> {
     last: Option<Remembered<W, T>>,
     in_a_row: u32,
-    /// The path has started again: geometric normals from now on.
+    /// Since then a shading normal was another one than the geometric.
+    bent: bool,
+    /// Geometric normals from now on, because the path has started again or there
+    /// are no others.
     flat: bool,
 }
 
@@ -34,8 +38,9 @@ struct Remembered<W, T> {
 }
 
 impl<W: Winding, T: Clone> Restart<W, T> {
-    pub(crate) fn new() -> Self {
-        Self { last: None, in_a_row: 0, flat: false }
+    /// * `may_trap`: there are shading normals.
+    pub(crate) fn new(may_trap: bool) -> Self {
+        Self { last: None, in_a_row: 0, bent: false, flat: !may_trap }
     }
 
     /// Takes the shading normal from an event if this path no longer uses it.
@@ -57,20 +62,32 @@ impl<W: Winding, T: Clone> Restart<W, T> {
         optics: &MediaOptics,
     ) {
         self.in_a_row = 0;
+        if self.flat {
+            return;
+        }
+        let bent = event.spot.normals.are_apart();
         let cosine = incoming.dot(event.spot.normals.geometric);
         let eta_i_over_t = optics.indices.eta(&event.before) / optics.indices.eta(&event.after);
         let sine_beyond = eta_i_over_t * (1.0 - cosine * cosine).max(0.0).sqrt();
-        if !self.flat && sine_beyond < 1.0 {
+        if sine_beyond < 1.0 {
             let (event, so_far) = (event.clone(), so_far.clone());
             self.last = Some(Remembered { event, incoming, side, so_far });
+            self.bent = bent;
+        } else {
+            self.bent |= bent;
         }
     }
 
     /// Counts a total reflection. After too many: the path from where it starts
     /// again, and what it had come through there.
-    pub(crate) fn total_reflection(&mut self, optics: &MediaOptics) -> Option<(Flight<W>, T)> {
+    pub(crate) fn total_reflection(
+        &mut self,
+        event: &Event<W>,
+        optics: &MediaOptics,
+    ) -> Option<(Flight<W>, T)> {
         self.in_a_row += 1;
-        if self.flat || self.in_a_row < PATIENCE {
+        self.bent |= event.spot.normals.are_apart();
+        if self.flat || !self.bent || self.in_a_row < PATIENCE {
             return None;
         }
         self.flat = true;

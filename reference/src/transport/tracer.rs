@@ -4,10 +4,10 @@ use crate::receiver::map::CausticMap;
 use crate::request::{EnvironmentLookup, Request, Restriction};
 use crate::transport::media_optics::MediaOptics;
 use crate::transport::spectrum::{D_LINE_UM, Wavelength};
-use crate::world::World;
 use crate::world::flight::{Flight, Start};
 use crate::world::scratch::Scratch;
 use crate::world::winding::{Counts, Winding};
+use crate::world::{Body, World};
 use glam::DVec3;
 use scenes::{Camera, Environment, Projection, Ray, Scene};
 
@@ -24,6 +24,8 @@ pub(crate) struct Tracer<'a> {
     pub(crate) lookup: EnvironmentLookup,
     /// Winding counts at the eye, if all rays start there.
     pub(crate) eye_counts: Option<Vec<i16>>,
+    /// A body has shading normals, which may trap light.
+    pub(crate) may_trap: bool,
     /// Light on one of the opaque faces.
     pub(crate) caustics: Option<&'a CausticMap>,
 }
@@ -76,6 +78,17 @@ impl<'a> Tracer<'a> {
         });
         let lookup = request.environment_lookup;
         let caustics = request.caustics.as_deref();
-        Self { scene, world, d_line, wavelengths, restriction, lookup, eye_counts, caustics }
+        let may_trap = world.bodies.iter().any(Body::has_shading_normals);
+        Self {
+            scene,
+            world,
+            d_line,
+            wavelengths,
+            restriction,
+            lookup,
+            eye_counts,
+            may_trap,
+            caustics,
+        }
     }
 }

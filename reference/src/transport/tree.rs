@@ -62,7 +62,7 @@ impl Tracer<'_> {
     ) -> Sum {
         let mut sum = Sum::default();
         climb.waiting.clear();
-        let mut next = Some(Branch { path: Path::new(flight, ()), weight: 1.0 });
+        let mut next = Some(Branch { path: self.path(flight, ()), weight: 1.0 });
         while let Some(branch) = next.or_else(|| climb.waiting.pop()) {
             next = self.step::<W, P, UNIFORM, LENGTHS>(branch, climb, &mut sum);
         }

@@ -72,6 +72,11 @@ impl Body {
     pub(crate) fn class(&self) -> Option<usize> {
         if let Role::Solid(class) = self.role { Some(class) } else { None }
     }
+
+    /// Its shading normals may differ from the geometric ones.
+    pub(crate) fn has_shading_normals(&self) -> bool {
+        self.smooth.is_some() || self.bump.is_some()
+    }
 }
 
 impl World {
