@@ -49,11 +49,13 @@ fn white(scene: &Scene, cut: f64) -> Rendering {
     rendering
 }
 
-#[test]
-fn nested_overlapping_and_touching_bodies_vanish_in_uniform_light() {
+type Case = (&'static str, Vec<Object>);
+
+/// Bodies in each other.
+fn nested() -> Vec<Case> {
     let sphere = |r| Shape::Sphere { radius_m: r };
     let mesh = |m| Shape::Mesh(m);
-    let cases: Vec<(&str, Vec<Object>)> = vec![
+    vec![
         (
             "bubble",
             vec![
@@ -79,6 +81,13 @@ fn nested_overlapping_and_touching_bodies_vanish_in_uniform_light() {
             vec![body(mesh(cube(2)), 1, 0), at(body(sphere(0.7), 2, 1), DVec3::Y, 1.0)],
         ),
         ("the same mesh twice", vec![body(mesh(cup()), 1, 0), body(mesh(cup()), 2, 1)]),
+    ]
+}
+
+/// Bodies that share a face, or cut through each other's.
+fn touching() -> Vec<Case> {
+    let mesh = |m| Shape::Mesh(m);
+    vec![
         (
             "touching cubes",
             vec![
@@ -101,8 +110,12 @@ fn nested_overlapping_and_touching_bodies_vanish_in_uniform_light() {
             "slab through a ball",
             vec![body(mesh(icosphere(3)), 1, 0), body(Shape::Slab { thickness_m: 0.3 }, 2, 1)],
         ),
-    ];
-    for (name, objects) in cases {
+    ]
+}
+
+#[test]
+fn nested_overlapping_and_touching_bodies_vanish_in_uniform_light() {
+    for (name, objects) in nested().into_iter().chain(touching()) {
         let rendering = white(&scene(objects), 1e-3);
         assert!(rendering.counters["events"] > 1000, "{name}");
     }

@@ -8,10 +8,10 @@ use scenes::{Camera, MediumId, Mesh, Object, Projection};
 use scenes::{Scene, Shape};
 use std::collections::HashMap;
 
-/// A unit sphere from an icosahedron whose triangles are divided `levels` times.
-pub fn icosphere(levels: u32) -> Mesh {
+/// The corners of an icosahedron on the unit sphere.
+fn icosahedron_corners() -> Vec<DVec3> {
     let g = (1.0 + 5.0_f64.sqrt()) / 2.0;
-    let mut positions: Vec<DVec3> = [
+    [
         [-1.0, g, 0.0],
         [1.0, g, 0.0],
         [-1.0, -g, 0.0],
@@ -26,29 +26,37 @@ pub fn icosphere(levels: u32) -> Mesh {
         [-g, 0.0, 1.0],
     ]
     .map(|p| DVec3::from_array(p).normalize())
-    .to_vec();
-    let mut triangles: Vec<[u32; 3]> = vec![
-        [0, 11, 5],
-        [0, 5, 1],
-        [0, 1, 7],
-        [0, 7, 10],
-        [0, 10, 11],
-        [1, 5, 9],
-        [5, 11, 4],
-        [11, 10, 2],
-        [10, 7, 6],
-        [7, 1, 8],
-        [3, 9, 4],
-        [3, 4, 2],
-        [3, 2, 6],
-        [3, 6, 8],
-        [3, 8, 9],
-        [4, 9, 5],
-        [2, 4, 11],
-        [6, 2, 10],
-        [8, 6, 7],
-        [9, 8, 1],
-    ];
+    .to_vec()
+}
+
+/// Its triangles.
+const ICOSAHEDRON: [[u32; 3]; 20] = [
+    [0, 11, 5],
+    [0, 5, 1],
+    [0, 1, 7],
+    [0, 7, 10],
+    [0, 10, 11],
+    [1, 5, 9],
+    [5, 11, 4],
+    [11, 10, 2],
+    [10, 7, 6],
+    [7, 1, 8],
+    [3, 9, 4],
+    [3, 4, 2],
+    [3, 2, 6],
+    [3, 6, 8],
+    [3, 8, 9],
+    [4, 9, 5],
+    [2, 4, 11],
+    [6, 2, 10],
+    [8, 6, 7],
+    [9, 8, 1],
+];
+
+/// A unit sphere from an icosahedron whose triangles are divided `levels` times.
+pub fn icosphere(levels: u32) -> Mesh {
+    let mut positions = icosahedron_corners();
+    let mut triangles = ICOSAHEDRON.to_vec();
     for _ in 0..levels {
         let mut middles: HashMap<(u32, u32), u32> = HashMap::new();
         let mut next = Vec::new();

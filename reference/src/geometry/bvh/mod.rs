@@ -10,15 +10,16 @@ mod collapse;
 mod instructions;
 mod kernel;
 mod node;
+mod search;
 mod stack;
 mod triangles;
 mod walk;
 
 pub(crate) use instructions::Detected;
 pub use instructions::Instructions;
+pub(crate) use search::{Query, TriangleHit};
 pub(crate) use stack::Stack;
 pub use triangles::{Hit, Triangles};
-pub(crate) use walk::{Query, TriangleHit};
 
 use crate::geometry::soup::Soup;
 use crate::geometry::triangle::Triangle;

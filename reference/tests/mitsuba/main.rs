@@ -14,6 +14,7 @@
     reason = "a test may panic, and prints its figures"
 )]
 
+#[path = "../common/mod.rs"]
 mod common;
 
 use common::{furnace, object};
@@ -34,7 +35,7 @@ static ALL: [bool; SIZE_PX * SIZE_PX] = [false; SIZE_PX * SIZE_PX];
 const EDGES: u32 = 256;
 
 fn file(name: &str) -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/data/truth").join(name)
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/mitsuba/truth").join(name)
 }
 
 fn environment(lat_long: LatLong) -> Environment {
