@@ -37,6 +37,9 @@ pub struct Scene {
 pub struct Source {
     /// File, if it was one.
     pub path: Option<PathBuf>,
+    /// Folder that paths in the text are relative to; `None` where there is no
+    /// text of a scene file, as with glTF.
+    pub folder: Option<PathBuf>,
     /// TOML text.
     pub text: String,
     /// SHA-256 (hex) of the text and of every file it refers to.

@@ -2,8 +2,10 @@
 //! beside it, then renamed.
 
 use std::fs::{self, File};
+use std::hash::{BuildHasher, Hasher, RandomState};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Lets `make` write a file or a folder under another name in the same folder,
@@ -47,9 +49,11 @@ pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
 /// writers look at it.
 fn partial(path: &Path) -> PathBuf {
     static COUNT: AtomicU64 = AtomicU64::new(0);
+    // Machines that share a folder may share the numbers of their processes.
+    static OURS: LazyLock<u64> = LazyLock::new(|| RandomState::new().build_hasher().finish());
     let number = COUNT.fetch_add(1, Ordering::Relaxed);
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    path.with_file_name(format!(".partial-{}-{number}-{name}", std::process::id()))
+    path.with_file_name(format!(".partial-{:x}-{number}-{name}", *OURS))
 }
 
 #[cfg(test)]

@@ -3,8 +3,8 @@
 
 use compare::metric::{Candidate, Exposures, Mask, Reference, Selection, judge};
 use compare::results::{
-    FLIP_LAYER, NotDone, RESULT_SCHEMA, ResultRow, RowKind, Run, STUDY_SCHEMA, SceneEntry, Study,
-    write_rows, write_study,
+    Columns, FLIP_LAYER, NotDone, RESULT_SCHEMA, ResultRow, RowKind, Run, STUDY_SCHEMA, Scalar,
+    SceneEntry, Study, write_rows, write_study,
 };
 use glam::DVec3;
 use scenes::rendering::{Pass, Time, TimeSource};
@@ -93,7 +93,10 @@ fn common(run: &Run) -> ResultRow {
         id: run.id.clone(),
         scene: run.scene.clone(),
         method: run.method.clone(),
-        parameters: run.parameters.clone(),
+        columns: Columns::new(
+            &run.parameters.iter().map(|(n, v)| (n.clone(), Scalar::read(v))).collect(),
+            &BTreeMap::new(),
+        ),
         width_px: SIZE as u32,
         height_px: SIZE as u32,
         adapter: "llvmpipe <256 bits>".to_owned(),
@@ -162,6 +165,7 @@ pub(crate) fn study(directory: &Path) {
         toml: "title = \"</pre><b>\"".to_owned(),
         resolution_px: [SIZE as u32; 2],
         flip_exposures: Some((-4.0, 2.0, 4)),
+        ..SceneEntry::default()
     };
     let study = Study {
         schema: STUDY_SCHEMA.to_owned(),

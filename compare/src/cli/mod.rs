@@ -4,6 +4,7 @@
 mod arguments;
 mod describe;
 mod judge;
+mod many;
 mod output;
 mod render;
 mod status;
@@ -12,6 +13,7 @@ use crate::Error;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use describe::{adapters, export, mesh, methods, plan, scenes};
 use judge::{bench, compare, report, study};
+use many::{collect, jobs, run};
 use output::Output;
 use render::{caustics, realtime, reference};
 use status::{EXIT_STATUS, Status};
@@ -40,6 +42,9 @@ enum Command {
     Caustics(caustics::Args),
     Compare(compare::Args),
     Study(study::Args),
+    Jobs(jobs::Args),
+    Run(run::Args),
+    Collect(collect::Args),
     Report(report::Args),
     Mesh(mesh::Args),
     Export(export::Args),
@@ -58,6 +63,9 @@ impl Command {
             Self::Caustics(args) => caustics::run(args, output),
             Self::Compare(args) => compare::run(args, output),
             Self::Study(args) => study::run(args, output),
+            Self::Jobs(args) => jobs::run(args, output),
+            Self::Run(args) => run::run(args, output),
+            Self::Collect(args) => collect::run(args, output),
             Self::Report(args) => report::run(args, output),
             Self::Mesh(args) => mesh::run(args, output),
             Self::Export(args) => export::run(args, output),

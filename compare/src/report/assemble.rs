@@ -64,7 +64,7 @@ fn scene_view(
         entry: entry.clone(),
         index,
         reference_facts: reference_run.map(facts).unwrap_or_default(),
-        plots: scene_plots::plots(entry, study, &runs, numbers, styles),
+        plots: scene_plots::plots(entry, study, numbers, styles),
         methods,
         ..SceneView::default()
     }
@@ -82,7 +82,7 @@ fn method_view(
     study: &Study,
     styles: &[String],
 ) -> MethodView {
-    let style = styles.iter().position(|known| *known == name).unwrap_or(0);
+    let style = styles.iter().position(|known| *known == run.method).unwrap_or(0);
     let memory = match run.plan.bytes() {
         0 => run.counters.get("bytes").copied().unwrap_or(0),
         planned => planned,

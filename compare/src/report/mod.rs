@@ -14,7 +14,7 @@ mod spreadsheet;
 mod verdict;
 pub mod viewer;
 
-use crate::results::{ResultsError, read_rows, read_study};
+use crate::results::{NotDone, ResultsError, Study, read_rows, read_study};
 use crate::support::files::{self, FileError};
 use askama::Template;
 use std::path::{Path, PathBuf};
@@ -45,11 +45,35 @@ pub struct Report {
     pub markdown: PathBuf,
     /// All numbers as a table.
     pub csv: PathBuf,
+    /// One line per run, one column per metric.
+    pub wide_csv: PathBuf,
     /// Contact sheets, plots and pictures.
     pub pictures: Vec<PathBuf>,
 }
 
-/// Makes `report.html`, `report.md`, `results.csv`, `plots/*.svg` and
+/// Most places of a study that a page shows.
+const MOST_SHOWN: usize = 8;
+
+/// Of a study with many places, those whose images were kept.
+fn shown(mut study: Study) -> Study {
+    let count = study.scenes.len();
+    if count > MOST_SHOWN {
+        let has_image = |name: &str| {
+            study.runs.iter().any(|run| run.scene == name && !run.image.as_os_str().is_empty())
+        };
+        let kept: Vec<bool> = study.scenes.iter().map(|entry| has_image(&entry.name)).collect();
+        let mut kept = kept.into_iter();
+        study.scenes.retain(|_| kept.next() == Some(true));
+        study.left_out.push(NotDone {
+            what: format!("{} of {count} places", count - study.scenes.len()),
+            reason: "not shown on this page; wide.csv and results.csv have their numbers"
+                .to_owned(),
+        });
+    }
+    study
+}
+
+/// Makes `report.html`, `report.md`, `results.csv`, `wide.csv`, `plots/*.svg` and
 /// `pictures/*.png` from `results.jsonl`, `study.json` and the images that it
 /// names, all in `directory`.
 ///
@@ -58,14 +82,16 @@ pub struct Report {
 pub fn write(directory: &Path) -> Result<Report, ReportError> {
     let rows = read_rows(directory)?;
     let study = read_study(directory)?;
-    let page = assemble::assemble(directory, study, &rows)?;
+    let page = assemble::assemble(directory, shown(study), &rows)?;
     let report = Report {
         html: directory.join("report.html"),
         markdown: directory.join("report.md"),
         csv: directory.join("results.csv"),
+        wide_csv: directory.join("wide.csv"),
         pictures: page.scenes.iter().flat_map(|scene| scene.files.clone()).collect(),
     };
     files::write(&report.csv, &spreadsheet::csv(&rows))?;
+    files::write(&report.wide_csv, &spreadsheet::wide(&rows))?;
     files::write(&report.markdown, page::Markdown { page: &page }.render()?.as_bytes())?;
     files::write(&report.html, page.render()?.as_bytes())?;
     Ok(report)

@@ -1,28 +1,28 @@
 //! The rows of a study, found by scene, run and metric.
 
 use crate::metric::{Better, Mask, Metric};
-use crate::results::{REFERENCE, ResultRow, RowKind, Run, Validity};
+use crate::results::{ResultRow, RowKind, Run, Validity};
 use std::collections::BTreeMap;
 
-/// Rows by scene and run, in file order.
+/// Rows by run, in file order.
 pub(super) struct Numbers<'a> {
-    by_scene: BTreeMap<&'a str, BTreeMap<&'a str, Vec<&'a ResultRow>>>,
+    /// All of them.
+    pub(super) rows: &'a [ResultRow],
+    by_run: BTreeMap<&'a str, Vec<&'a ResultRow>>,
 }
 
 impl<'a> Numbers<'a> {
     pub(super) fn new(rows: &'a [ResultRow]) -> Self {
-        let mut by_scene: BTreeMap<_, BTreeMap<_, Vec<_>>> = BTreeMap::new();
+        let mut by_run: BTreeMap<_, Vec<_>> = BTreeMap::new();
         for row in rows {
-            let scene = by_scene.entry(row.scene.as_str()).or_default();
-            scene.entry(row.id.as_str()).or_default().push(row);
+            by_run.entry(row.id.as_str()).or_default().push(row);
         }
-        Self { by_scene }
+        Self { rows, by_run }
     }
 
     /// All rows of a run.
     pub(super) fn of(&self, run: &Run) -> &[&'a ResultRow] {
-        let scene = self.by_scene.get(run.scene.as_str());
-        scene.and_then(|runs| runs.get(run.id.as_str())).map_or(&[], Vec::as_slice)
+        self.by_run.get(run.id.as_str()).map_or(&[], Vec::as_slice)
     }
 
     /// The row of a metric over the whole image.
@@ -37,21 +37,6 @@ impl<'a> Numbers<'a> {
             .find(|row| row.metric == clock)
             .or_else(|| times().find(|row| row.metric == "time_wall_ms"))
             .or_else(|| times().next())
-    }
-
-    /// Error and time of the exact renderer at growing effort, by time.
-    pub(super) fn reference_curve(&self, scene: &str, metric: &str) -> Vec<(f64, f64)> {
-        let runs = self.by_scene.get(scene).into_iter().flat_map(BTreeMap::values);
-        let mut curve: Vec<(f64, f64)> = runs
-            .filter_map(|rows| {
-                let own = || rows.iter().filter(|row| row.method == REFERENCE);
-                let error = own().find(|row| row.metric == metric && row.mask == Mask::All)?;
-                let time = own().find(|row| row.metric == "time_wall_ms")?;
-                Some((usable(time)?, usable(error)?))
-            })
-            .collect();
-        curve.sort_by(|a, b| a.0.total_cmp(&b.0));
-        curve
     }
 }
 

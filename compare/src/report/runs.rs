@@ -14,13 +14,13 @@ pub(super) const MERITS: [(Metric, &str, &str); 6] = [
     (Metric::HdrFlip, "FLIP", ""),
 ];
 
-/// Methods in order of first appearance: their place is their style.
+/// Methods in order of first appearance: their place is their style, whatever their
+/// settings.
 pub(super) fn styles(study: &Study) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     for run in study.runs.iter().filter(|run| run.method != REFERENCE) {
-        let name = display_name(study, run);
-        if !names.contains(&name) {
-            names.push(name);
+        if !names.contains(&run.method) {
+            names.push(run.method.clone());
         }
     }
     names
@@ -28,21 +28,7 @@ pub(super) fn styles(study: &Study) -> Vec<String> {
 
 /// Method id, and the parameters in which runs of it on one scene differ.
 pub(super) fn display_name(study: &Study, run: &Run) -> String {
-    let siblings: Vec<&Run> = study
-        .runs
-        .iter()
-        .filter(|other| other.scene == run.scene && other.method == run.method)
-        .collect();
-    let differs = |name: &str, value: &String| {
-        siblings.iter().any(|other| other.parameters.get(name) != Some(value))
-    };
-    let own: Vec<String> = run
-        .parameters
-        .iter()
-        .filter(|(name, value)| differs(name, value))
-        .map(|(name, value)| format!("{name}={value}"))
-        .collect();
-    if own.is_empty() { run.method.clone() } else { format!("{} {}", run.method, own.join(" ")) }
+    study.name_of(run)
 }
 
 /// Runs of the approximations on a scene, in the order of the study.

@@ -3,8 +3,11 @@
 //!
 //! Both carry a schema name; within a major version fields are only added.
 
+mod columns;
+pub mod curves;
 mod store;
 
+pub use columns::{Columns, FLIP_EXPOSURES, PARAM, SCENE, Scalar};
 pub use store::{ResultsError, read_rows, read_study, write_rows, write_study};
 
 use scenes::Plan;
@@ -14,7 +17,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// Schema of a [`ResultRow`].
-pub const RESULT_SCHEMA: &str = "snell.result/1";
+pub const RESULT_SCHEMA: &str = "snell.result/2";
 /// Schema of a [`Study`].
 pub const STUDY_SCHEMA: &str = "snell.study/1";
 /// Name of the row file in a results directory.
@@ -82,9 +85,15 @@ pub struct ResultRow {
     pub scene: String,
     /// Method id, or [`REFERENCE`] for the exact renderer's own curve.
     pub method: String,
-    /// Parameters of the method, defaults included. The exact renderer's
-    /// curve has `samples` here.
-    pub parameters: BTreeMap<String, String>,
+    /// Parameters of the method, defaults included, as `param.a`; numbers set in
+    /// the scene as `scene.medium.glass.eta`; `flip_exposures.start`, `.stop` and
+    /// `.count`. Each is a field of its own. The exact renderer's curve has
+    /// `param.samples` and `param.cut`.
+    #[serde(flatten)]
+    pub columns: Columns,
+    /// k: the number belongs to the mean over k x k positions in each pixel. A
+    /// time is that of drawing them.
+    pub positions: u32,
     /// Frame of the sequence.
     pub frame: u32,
     /// Width, pixels.
@@ -148,14 +157,74 @@ pub struct Study {
     pub runs: Vec<Run>,
     /// Scenes and methods that were asked for and not done, with the reason.
     pub left_out: Vec<NotDone>,
+    /// Milliseconds within which the best method was asked for.
+    pub budget_ms: Option<f64>,
+    /// What the curves say in words, per scene.
+    pub readings: Vec<Reading>,
 }
 
-/// One scene of a study.
+/// One sentence that is read off the curves of error against time.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Reading {
+    /// Name of the [`SceneEntry`].
+    pub scene: String,
+    /// Method id, or empty for the scene as a whole.
+    pub method: String,
+    /// `equal-error`, `equal-time` or `budget`.
+    pub kind: String,
+    /// The sentence.
+    pub text: String,
+    /// The number that it states: milliseconds, or an error; `None` where the
+    /// curves do not reach.
+    pub value: Option<f64>,
+}
+
+impl Study {
+    /// Method of a run, and the parameters in which runs of it at one place differ.
+    #[must_use]
+    pub fn name_of(&self, run: &Run) -> String {
+        let same = |other: &&Run| other.scene == run.scene && other.method == run.method;
+        let siblings: Vec<&Run> = self.runs.iter().filter(same).collect();
+        let differs = |name: &str, value: &String| {
+            siblings.iter().any(|other| other.parameters.get(name) != Some(value))
+        };
+        let own = run.parameters.iter().filter(|(name, value)| differs(name, value));
+        let own = own.map(|(name, value)| format!(" {name}={value}"));
+        std::iter::once(run.method.clone()).chain(own).collect()
+    }
+}
+
+impl SceneEntry {
+    /// Name of the scene, as in the rows.
+    #[must_use]
+    pub fn scene(&self) -> &str {
+        if self.scene.is_empty() { &self.name } else { &self.scene }
+    }
+
+    /// True if a row belongs here.
+    #[must_use]
+    pub fn holds(&self, row: &ResultRow) -> bool {
+        let own = |key: &str| self.set.get(key).map(|value| Scalar::Number(*value));
+        let mut set = row.columns.under(SCENE);
+        row.scene == self.scene()
+            && [row.width_px, row.height_px] == self.resolution_px
+            && row.columns.under(SCENE).count() == self.set.len()
+            && set.all(|(key, value)| own(key).as_ref() == Some(value))
+    }
+}
+
+/// One scene of a study, with its numbers at a resolution.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct SceneEntry {
-    /// Name, as in the rows.
+    /// Name that no other entry has: the scene's, and what tells this place from
+    /// others of the scene.
     pub name: String,
+    /// Name of the scene, as in the rows; empty if it is `name`.
+    pub scene: String,
+    /// Numbers that are set in the scene.
+    pub set: BTreeMap<String, f64>,
     /// Title from the scene file.
     pub title: String,
     /// Text of the scene file.
@@ -172,13 +241,16 @@ pub struct SceneEntry {
 pub struct Run {
     /// Content id, as in the rows.
     pub id: String,
-    /// Scene.
+    /// Name of the [`SceneEntry`].
     pub scene: String,
-    /// Method id or [`REFERENCE`].
+    /// Method id, [`REFERENCE`] or the name of somebody else's image.
     pub method: String,
+    /// k of the k x k positions per pixel of its image.
+    pub positions: u32,
     /// Parameters.
     pub parameters: BTreeMap<String, String>,
-    /// EXR with all layers, relative to the results directory.
+    /// EXR with all layers, relative to the results directory; empty where it was
+    /// not kept, as for all but the best of a method's settings.
     pub image: PathBuf,
     /// EXR with the layer `flip` of this image against the reference, relative
     /// to the results directory; empty if the report is to compute it.

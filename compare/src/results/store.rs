@@ -129,10 +129,10 @@ mod tests {
         write_rows(directory.path(), &[row.clone(), nothing.clone()]).unwrap();
         assert_eq!(read_rows(directory.path()).unwrap(), [row.clone(), nothing]);
 
-        row.schema = "snell.result/2".to_owned();
+        row.schema = "snell.result/9".to_owned();
         write_rows(directory.path(), &[row]).unwrap();
         let error = read_rows(directory.path()).unwrap_err().to_string();
-        assert!(error.contains("results.jsonl:1: schema `snell.result/2`"), "{error}");
+        assert!(error.contains("results.jsonl:1: schema `snell.result/9`"), "{error}");
     }
 
     #[test]

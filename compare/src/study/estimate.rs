@@ -1,8 +1,13 @@
 //! How long a study will take, asked of this machine before it starts: a small
 //! image of each scene is traced and the time scaled up.
 
+use super::Spec;
+use super::place::PlaceWork;
+use super::sweep::Grid;
 use crate::Error;
+use crate::study::cache::Store;
 use crate::study::jobs::Exact;
+use std::collections::BTreeMap;
 use std::fmt;
 use std::time::{Duration, Instant};
 
@@ -27,17 +32,47 @@ pub struct Estimate {
     pub duration: Duration,
 }
 
-/// Seconds that exact images of one scene should take on this machine; also
-/// finds out whether the scene can be traced at all.
-pub(super) fn seconds(jobs: &[&Exact]) -> Result<f64, Error> {
-    let Some(first) = jobs.first() else { return Ok(0.0) };
-    // One ray finds what it takes to build the scene, which every image pays once.
-    let built = probe(first, 1)?;
-    let traced = probe(first, PROBE_PX)?;
+/// What a study comes to. Each scene is asked once, as it was written; other numbers
+/// in it are taken to cost as much.
+pub(super) fn estimate(spec: &Spec, grid: &Grid, store: &Store) -> Estimate {
+    let mut estimate = Estimate::default();
+    let mut seconds = 0.0;
+    let mut asked: BTreeMap<usize, Option<Cost>> = BTreeMap::new();
+    for place in &grid.places {
+        let scene = &spec.scenes[place.scene];
+        let work = PlaceWork::new(spec, place, scene);
+        let cost = asked.entry(place.scene).or_insert_with(|| cost(work.truth()).ok());
+        // A scene that cannot be traced is left out, and says why when it is tried.
+        let Some(Cost { built_s, per_ray_s }) = *cost else { continue };
+        let known = |job: &&Exact| place.set.is_empty() && store.has(&job.id());
+        let (stored, missing): (Vec<_>, Vec<_>) = work.exact().partition(known);
+        let rays: f64 = missing.iter().map(|job| job.camera_rays()).sum();
+        seconds += per_ray_s * rays + built_s * missing.len() as f64;
+        let methods = place.jobs.len() - 1;
+        let positions = work.truth().camera_rays();
+        seconds += judging_seconds(methods, spec.timing_s, positions);
+        estimate.exact_images += missing.len();
+        estimate.stored_images += stored.len();
+        estimate.pairs += methods;
+    }
+    estimate.duration = Duration::from_secs_f64(seconds);
+    estimate
+}
+
+/// What tracing a scene takes on this machine.
+#[derive(Clone, Copy)]
+struct Cost {
+    /// Seconds to build the scene, which every image pays once.
+    built_s: f64,
+    /// Seconds per camera ray.
+    per_ray_s: f64,
+}
+
+fn cost(job: &Exact) -> Result<Cost, Error> {
+    let built_s = probe(job, 1)?;
+    let traced_s = probe(job, PROBE_PX)?;
     let rays = f64::from(PROBE_PX * PROBE_PX);
-    let per_ray = (traced - built).max(0.0) / rays;
-    let rays: f64 = jobs.iter().map(|job| job.camera_rays()).sum();
-    Ok(per_ray * rays + built * jobs.len() as f64)
+    Ok(Cost { built_s, per_ray_s: (traced_s - built_s).max(0.0) / rays })
 }
 
 /// Seconds for an image of that edge.
@@ -52,7 +87,7 @@ fn probe(job: &Exact<'_>, edge_px: u32) -> Result<f64, Error> {
 
 /// Seconds that judging each of some methods should take, if it is timed for
 /// `timing_s` and drawn at `positions` in all pixels together.
-pub(super) fn judging_seconds(methods: usize, timing_s: f64, positions: f64) -> f64 {
+fn judging_seconds(methods: usize, timing_s: f64, positions: f64) -> f64 {
     methods as f64 * (timing_s + COMPILING_S + PER_POSITION_S * positions)
 }
 

@@ -2,14 +2,13 @@
 
 use crate::Error;
 use crate::metric::{
-    Candidate, Encoding, Exposures, Judgement, Mask, Measurement, Metric, Reference, Selection,
-    judge,
+    Candidate, Encoding, Exposures, Judgement, Mask, Metric, Reference, Selection, judge,
 };
 use crate::results::{NotDone, RESULT_SCHEMA, ResultRow, RowKind, with_all_kept};
-use crate::study::jobs::Made;
+use crate::study::jobs::{Exact, Made};
 use scenes::layer::flag;
 use scenes::rendering::{Pass, TimeSource};
-use scenes::{LayerName, Scene};
+use scenes::{LayerName, Layers, Scene};
 
 /// The truth about a scene, and how images of it are judged.
 pub(super) struct Judge<'a> {
@@ -28,13 +27,27 @@ pub(super) struct Judged {
 }
 
 impl<'a> Judge<'a> {
-    pub(super) fn new(scene: &Scene, truth: &'a Made) -> Self {
+    /// `scene`: as it is written, without numbers that a sweep sets in it, so that
+    /// FLIP compares at the same exposures wherever the scene is judged.
+    pub(super) fn new(scene: &Scene, truth: &'a Made) -> Result<Self, Error> {
+        let exposures = match scene.judgement.flip_exposures {
+            Some(pinned) => Some(pinned),
+            None => Exposures::of(&Exact::glance(scene)?)
+                .map(|found| (found.start, found.stop, found.count as u32)),
+        };
+        Ok(Self::at(exposures, truth))
+    }
+
+    /// Judges at exposures that were chosen before.
+    pub(super) fn at(exposures: Option<(f64, f64, u32)>, truth: &'a Made) -> Self {
         let mut selection = Selection::all(Encoding::Linear);
         selection.masks = vec![Mask::All, Mask::Object];
-        let pinned = scene.judgement.flip_exposures;
-        selection.flip_exposures = pinned
-            .map(|(start, stop, count)| Exposures { start, stop, count: count as usize })
-            .or_else(|| Exposures::of(&truth.layers.get(&LayerName::Radiance)?.data));
+        let read = |(start, stop, count): (f64, f64, u32)| Exposures {
+            start,
+            stop,
+            count: count as usize,
+        };
+        selection.flip_exposures = exposures.map(read);
         Self { truth, selection }
     }
 
@@ -46,9 +59,23 @@ impl<'a> Judge<'a> {
     /// Everything measured about an image. What all its rows share comes from
     /// `common`.
     pub(super) fn judged(&self, made: &Made, common: &ResultRow) -> Result<Judged, Error> {
+        let mut judged = self.judged_against(&self.truth.layers, &made.layers, common)?;
+        judged.rows.extend(counts(made, &self.named(common)));
+        Ok(judged)
+    }
+
+    /// The errors of layers against a truth of the caller's.
+    pub(super) fn judged_against(
+        &self,
+        truth: &Layers,
+        layers: &Layers,
+        common: &ResultRow,
+    ) -> Result<Judged, Error> {
         let Judgement { measurements, left_out, flip_map } =
-            judge(Reference(&self.truth.layers), Candidate(&made.layers), &self.selection)?;
-        Ok(Judged { rows: self.rows(&measurements, made, common), left_out, flip_map })
+            judge(Reference(truth), Candidate(layers), &self.selection)?;
+        let common = self.named(common);
+        let rows = measurements.iter().map(|found| found.row(&common)).collect();
+        Ok(Judged { rows, left_out, flip_map })
     }
 
     /// The cheap errors of an image of the exact renderer's own curve: FLIP
@@ -58,18 +85,30 @@ impl<'a> Judge<'a> {
         made: &Made,
         common: &ResultRow,
     ) -> Result<Vec<ResultRow>, Error> {
-        let metrics = vec![Metric::RelMse, Metric::RelMseTrimmed, Metric::Bias, Metric::Rmse];
-        let selection = Selection { metrics, masks: vec![Mask::All], ..self.selection.clone() };
-        let found = judge(Reference(&self.truth.layers), Candidate(&made.layers), &selection)?;
-        Ok(self.rows(&found.measurements, made, common))
-    }
-
-    fn rows(&self, found: &[Measurement], made: &Made, common: &ResultRow) -> Vec<ResultRow> {
-        let common = ResultRow { reference_id: self.truth.id.to_string(), ..common.clone() };
-        let mut rows: Vec<_> = found.iter().map(|found| found.row(&common)).collect();
+        let mut rows = self.pixel_integral_rows(&made.layers, common)?;
+        let common = self.named(common);
         rows.extend(times(&made.facts.passes, &common));
         rows.extend(counts(made, &common));
-        rows
+        Ok(rows)
+    }
+
+    /// The cheap errors of an image that was drawn at fewer positions than the
+    /// truth: what its pixels miss of their integral counts.
+    pub(super) fn pixel_integral_rows(
+        &self,
+        layers: &Layers,
+        common: &ResultRow,
+    ) -> Result<Vec<ResultRow>, Error> {
+        let metrics = vec![Metric::RelMse, Metric::RelMseTrimmed, Metric::Bias, Metric::Rmse];
+        let selection = Selection { metrics, masks: vec![Mask::All], ..self.selection.clone() };
+        let found = judge(Reference(&self.truth.layers), Candidate(layers), &selection)?;
+        let common = self.named(common);
+        Ok(found.measurements.iter().map(|found| found.row(&common)).collect())
+    }
+
+    /// Rows of an image name the truth that it was compared with.
+    fn named(&self, common: &ResultRow) -> ResultRow {
+        ResultRow { reference_id: self.truth.id.to_string(), ..common.clone() }
     }
 }
 
@@ -102,10 +141,7 @@ pub(super) fn times_with_all_kept(passes: &[Pass], common: &ResultRow) -> Vec<Re
 
 /// Work done, and pixels by flag.
 fn counts(made: &Made, common: &ResultRow) -> Vec<ResultRow> {
-    let count = |name: &str, count: u64| ResultRow {
-        kind: RowKind::Count,
-        ..number(name, count as f64, common)
-    };
+    let count = |name: &str, count: u64| count_row(name, count as f64, common);
     let counters = made.facts.counters.iter().map(|(name, value)| count(name, *value));
     let mut rows: Vec<_> = counters.collect();
     if let Some(layer) = made.layers.get(&LayerName::Flags) {
@@ -115,6 +151,11 @@ fn counts(made: &Made, common: &ResultRow) -> Vec<ResultRow> {
         }
     }
     rows
+}
+
+/// A deterministic count as a row.
+pub(super) fn count_row(name: &str, count: f64, common: &ResultRow) -> ResultRow {
+    ResultRow { kind: RowKind::Count, ..number(name, count, common) }
 }
 
 fn number(metric: &str, value: f64, common: &ResultRow) -> ResultRow {

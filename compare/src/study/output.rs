@@ -1,6 +1,6 @@
 //! The folder a study leaves behind.
 
-use crate::results::{self, ResultRow, Study};
+use crate::results::{self, ResultRow, Run, Study};
 use crate::study::jobs::Made;
 use crate::support::files::{self, FileError};
 use crate::{Error, report};
@@ -8,14 +8,37 @@ use scenes::{LayerName, Layers};
 use std::fs;
 use std::path::{Path, PathBuf};
 
+/// Name of a job's image in its folder.
+pub(super) const IMAGE: &str = "image.exr";
+/// Name of a job's FLIP map in its folder.
+pub(super) const FLIP: &str = "flip.exr";
+
 /// Place of a run's image, relative to the folder of the study.
-pub(super) fn image_place(scene: &str, method: &str) -> PathBuf {
+fn image_place(scene: &str, method: &str) -> PathBuf {
     Path::new("images").join(format!("{}.{}.exr", plain(scene), plain(method)))
 }
 
 /// Copies a stored image to its place.
 pub(super) fn copy_image(made: &Made, to: &Path) -> Result<(), FileError> {
-    let copy = |partial: &Path| fs::copy(&made.image, partial).map(|_| ());
+    copy(&made.image, to)
+}
+
+/// Copies the images of a run, which lie in a folder of its own, to their places in
+/// the folder of the study.
+pub(super) fn keep(run: &mut Run, from: &Path, out: &Path) -> Result<(), FileError> {
+    let image = image_place(&run.scene, &run.method);
+    let flip = image.with_extension("flip.exr");
+    for (kept, place) in [(&mut run.image, image), (&mut run.flip_map, flip)] {
+        if !kept.as_os_str().is_empty() {
+            copy(&from.join(&kept), &out.join(&place))?;
+            *kept = place;
+        }
+    }
+    Ok(())
+}
+
+fn copy(from: &Path, to: &Path) -> Result<(), FileError> {
+    let copy = |partial: &Path| fs::copy(from, partial).map(|_| ());
     files::replace(to, |partial| copy(partial).map_err(FileError::unwritten(to)))
 }
 

@@ -1,6 +1,6 @@
 //! The table a study ends with: scene x method, error, time, what was left out.
 
-use crate::results::{REFERENCE, ResultRow, Study, Validity, saved_ms};
+use crate::results::{REFERENCE, ResultRow, Run, Study, Validity, saved_ms};
 
 /// Heading, metric, digits after the point.
 const ERRORS: [(&str, &str, usize); 4] = [
@@ -10,23 +10,30 @@ const ERRORS: [(&str, &str, usize); 4] = [
     ("FLIP", "flip_hdr", 4),
 ];
 
+/// Most lines of the table.
+const MOST: usize = 100;
+
 /// Rows of text, headings first: one row per scene and method.
 #[must_use]
 pub fn summary(study: &Study, rows: &[ResultRow]) -> Vec<Vec<String>> {
     let mut table = vec![vec!["scene".to_owned(), "method".to_owned()]];
     table[0].extend(ERRORS.map(|(heading, ..)| heading.to_owned()));
     table[0].extend(["GPU ms", "left out"].map(str::to_owned));
-    for run in study.runs.iter().filter(|run| run.method != REFERENCE) {
+    let runs: Vec<&Run> = study.runs.iter().filter(|run| run.method != REFERENCE).collect();
+    for run in runs.iter().take(MOST) {
         let value = |metric: &str, digits: usize| {
             let of_run = |row: &&ResultRow| row.id == run.id && row.metric == metric;
             cell(rows.iter().find(of_run), digits)
         };
-        let mut line = vec![run.scene.clone(), run.method.clone()];
+        let mut line = vec![run.scene.clone(), study.name_of(run)];
         line.extend(ERRORS.map(|(_, metric, digits)| value(metric, digits)));
         line.push(value(&study.time_metric, 2));
-        let of_run = || rows.iter().filter(|row| row.id == run.id && row.scene == run.scene);
+        let of_run = || rows.iter().filter(|row| row.id == run.id);
         line.push(left_out(&run.plan, saved_ms(of_run(), &study.time_metric)));
         table.push(line);
+    }
+    if runs.len() > MOST {
+        table.push(vec![format!("and {} more in wide.csv", runs.len() - MOST)]);
     }
     table
 }

@@ -39,6 +39,7 @@ pub(super) struct CameraText {
     pub(super) eye: Position,
     pub(super) target: Spanned<Position>,
     pub(super) up: Option<Spanned<Direction>>,
+    pub(super) orbit_deg: Option<Angle>,
     pub(super) vertical_fov_deg: Option<Spanned<FieldOfView>>,
     pub(super) orthographic_height_m: Option<Spanned<Length>>,
     pub(super) resolution_px: Resolution,

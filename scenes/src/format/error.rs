@@ -47,6 +47,16 @@ pub enum Error {
         /// File that was looked for.
         path: PathBuf,
     },
+    /// A number that cannot be set from outside.
+    #[error("{scene}: {key} cannot be set: {why}")]
+    Setting {
+        /// Scene.
+        scene: String,
+        /// Path to the number.
+        key: String,
+        /// Why not, and what can be.
+        why: String,
+    },
     /// A mesh file given on its own is wrong.
     #[error(transparent)]
     Mesh(#[from] MeshError),

@@ -16,6 +16,7 @@ mod document;
 mod error;
 mod number;
 mod resolve;
+mod set;
 mod sky;
 #[cfg(test)]
 mod tests;

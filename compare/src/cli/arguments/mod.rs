@@ -2,6 +2,8 @@
 
 pub(super) mod adapter;
 pub(super) mod exact;
+pub(super) mod external;
+pub(super) mod study;
 pub(super) mod values;
 pub(super) mod view;
 

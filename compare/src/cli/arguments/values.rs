@@ -27,16 +27,7 @@ pub(in crate::cli) fn exr_path(text: &str) -> Result<PathBuf, String> {
 }
 
 /// Reads `WIDTHxHEIGHT`, or one number for both.
-pub(in crate::cli) fn resolution(text: &str) -> Result<[u32; 2], String> {
-    let (width, height) = text.split_once(['x', 'X']).unwrap_or((text, text));
-    let side = |text: &str| {
-        let side = text.trim().parse().ok().filter(|side| (1..=16_384).contains(side));
-        side.ok_or_else(|| {
-            format!("`{text}` is no number of pixels from 1 to 16384; write 512x512")
-        })
-    };
-    Ok([side(width)?, side(height)?])
-}
+pub(in crate::cli) use crate::study::sweep::file::resolution;
 
 /// Reads `START,STOP,COUNT`.
 pub(in crate::cli) fn exposures(text: &str) -> Result<Exposures, String> {

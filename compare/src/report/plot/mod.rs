@@ -19,8 +19,10 @@ use std::fmt::Write;
 /// One method in a plot.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Point {
-    /// Name beside the marker.
+    /// Name, shown on hover.
     pub name: String,
+    /// True if the name stands beside the marker.
+    pub labelled: bool,
     /// Milliseconds.
     pub time_ms: f64,
     /// Error.
@@ -28,6 +30,15 @@ pub struct Point {
     /// 95 % interval of the error, where known.
     pub interval: Option<(f64, f64)>,
     /// Which marker and colour; the same number means the same method.
+    pub style: usize,
+}
+
+/// Settings of one method that no other of it beats.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Front {
+    /// Milliseconds and error, ascending in time.
+    pub points: Vec<(f64, f64)>,
+    /// The method's colour.
     pub style: usize,
 }
 
@@ -40,8 +51,10 @@ pub struct Plot {
     pub error_label: String,
     /// Name of the clock.
     pub time_label: String,
-    /// Methods.
+    /// Methods, each with all its settings.
     pub points: Vec<Point>,
+    /// Fronts of methods that have several settings.
+    pub fronts: Vec<Front>,
     /// The exact renderer's own curve: milliseconds and error, ascending.
     pub curve: Vec<(f64, f64)>,
 }
@@ -95,6 +108,7 @@ impl Plot {
         self.draw_axes(&mut svg, &x, &y);
         self.draw_curve(&mut svg, &x, &y);
         self.draw_front(&mut svg, &x, &y);
+        self.draw_fronts(&mut svg, &x, &y);
         self.draw_points(&mut svg, &x, &y);
         svg.push_str("</svg>");
         svg
@@ -179,6 +193,21 @@ impl Plot {
         );
     }
 
+    fn draw_fronts(&self, svg: &mut String, x: &Axis, y: &Axis) {
+        for Front { points, style } in &self.fronts {
+            let shown = points.iter().filter(|p| p.0 > 0.0 && p.1 > 0.0);
+            let path: Vec<String> =
+                shown.map(|p| format!("{:.1},{:.1}", x.place(p.0), y.place(p.1))).collect();
+            let colour = COLOURS[style % COLOURS.len()];
+            let _ = write!(
+                svg,
+                "<polyline points=\"{}\" fill=\"none\" stroke=\"{colour}\" \
+                 stroke-width=\"1.5\" opacity=\"0.7\"/>",
+                path.join(" ")
+            );
+        }
+    }
+
     fn draw_points(&self, svg: &mut String, x: &Axis, y: &Axis) {
         let place = |point: &Point| [x.place(point.time_ms), y.place(point.error)];
         let mut taken: Vec<Area> = self.shown().map(|p| Area::of_marker(place(p))).collect();
@@ -192,9 +221,9 @@ impl Plot {
                 let ends = [at[0], y.place(high), at[0], y.place(low)];
                 line(svg, ends, colour, " stroke-width=\"1.5\"");
             }
-            let label = free_label(&point.name, at, &taken);
-            taken.push(label.area);
-            if let Some(from) = label.leader {
+            let label = point.labelled.then(|| free_label(&point.name, at, &taken));
+            taken.extend(label.iter().map(|label| label.area));
+            if let Some(from) = label.as_ref().and_then(|label| label.leader) {
                 line(svg, [at[0], at[1], from[0], from[1]], INK, " opacity=\"0.4\"");
             }
             let name = escape(&point.name);
@@ -206,7 +235,9 @@ impl Plot {
                  <title>{name}: {error}, {time}</title>{}</g>",
                 marker(point.style, at[0], at[1])
             );
-            text(svg, label.at, label.anchor, &point.name);
+            if let Some(label) = label {
+                text(svg, label.at, label.anchor, &point.name);
+            }
         }
     }
 }
@@ -218,6 +249,7 @@ mod tests {
     fn plot() -> Plot {
         let point = |name: &str, time_ms, error, style| Point {
             name: name.to_owned(),
+            labelled: true,
             time_ms,
             error,
             interval: None,

@@ -3,6 +3,7 @@
 mod id;
 mod store;
 
+pub(in crate::study) use id::hex;
 pub use id::{FORMAT, Id};
 pub use store::{Found, Store};
 

@@ -14,6 +14,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 const CHECKSUMS: &str = "checksums.json";
+/// Folder of files that are locked while a result is being made.
+const TURNS: &str = ".turns";
 
 /// A folder of results by content id.
 #[derive(Clone, Debug)]
@@ -50,6 +52,20 @@ impl Store {
     #[must_use]
     pub fn has(&self, id: &Id) -> bool {
         self.root.join(id.as_str()).exists()
+    }
+
+    /// Waits until nobody else is making the result of that id, in this process or
+    /// another, and holds the turn until it is dropped. Whoever is killed loses it.
+    ///
+    /// # Errors
+    /// If the disk does not take a file of no bytes.
+    pub fn turn(&self, id: &Id) -> Result<fs::File, Error> {
+        let folder = self.root.join(TURNS);
+        let failed = FileError::of(&folder, "the cache cannot be written");
+        fs::create_dir_all(&folder).map_err(&failed)?;
+        let file = fs::File::create(folder.join(id.as_str())).map_err(&failed)?;
+        file.lock().map_err(&failed)?;
+        Ok(file)
     }
 
     /// Looks a result up and verifies it.

@@ -5,7 +5,7 @@ use crate::Error;
 use crate::study::cache::Id;
 use realtime::{Filter, Gpu, Keep, Method, Request, Timing};
 use scenes::rendering::Pass;
-use scenes::{LayerName, Scene, View};
+use scenes::{LayerName, Layers, Scene, View};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -35,7 +35,13 @@ impl<'a> Approximation<'a> {
     /// The image that is judged against [`super::Exact::truth`], with the same
     /// size and positions, timed for `timing_s` seconds.
     #[must_use]
-    pub fn judged(scene: &'a Scene, view: &View, method: &str, timing_s: f64) -> Self {
+    pub fn judged(
+        scene: &'a Scene,
+        view: &View,
+        method: &str,
+        parameters: BTreeMap<String, String>,
+        timing_s: f64,
+    ) -> Self {
         let layers =
             vec![LayerName::Radiance, LayerName::Coverage, LayerName::Exit, LayerName::Flags];
         let view = View { layers, ..view.clone() };
@@ -43,12 +49,42 @@ impl<'a> Approximation<'a> {
         let request = Request {
             view,
             method: method.to_owned(),
-            parameters: BTreeMap::new(),
+            parameters,
             filter: Filter::Manual,
             timing: Some(timing),
             keep: Keep::Needed,
         };
         Self { scene, request }
+    }
+
+    /// The light alone, at k x k positions per pixel, not timed.
+    #[must_use]
+    pub fn light_at(&self, k: u32) -> Self {
+        let layers = vec![LayerName::Radiance];
+        let view = View { layers, positions_per_axis: k, ..self.request.view.clone() };
+        Self { scene: self.scene, request: Request { view, timing: None, ..self.request.clone() } }
+    }
+
+    /// The frame that is timed, drawn at k x k positions per pixel: one that is k
+    /// times as wide and as high.
+    #[must_use]
+    pub fn timed_at(&self, k: u32) -> Self {
+        let resolution_px = self.request.view.resolution_px.map(|side| side * k);
+        let view = View {
+            resolution_px,
+            positions_per_axis: 1,
+            layers: Vec::new(),
+            frame: self.request.view.frame,
+        };
+        Self { scene: self.scene, request: Request { view, ..self.request.clone() } }
+    }
+
+    /// Renders and keeps the layers in memory, narrowed as a file would.
+    ///
+    /// # Errors
+    /// If the method cannot show the scene.
+    pub fn layers(&self, gpu: &Gpu) -> Result<Layers, Error> {
+        Ok(realtime::render(gpu, self.scene, &self.request)?.layers)
     }
 
     /// Content id: the same image, though never the same time.

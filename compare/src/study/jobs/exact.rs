@@ -8,6 +8,11 @@ use scenes::{LayerName, Scene, View};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
+/// Longer side of a glance, pixels.
+const GLANCE_PX: u32 = 128;
+/// Weight below which a glance cuts branches.
+const GLANCE_CUT: f64 = 1e-3;
+
 /// An exact image of a scene.
 #[derive(Clone, Debug)]
 pub struct Exact<'a> {
@@ -48,6 +53,20 @@ impl<'a> Exact<'a> {
     #[must_use]
     pub fn estimate(scene: &'a Scene, resolution_px: [u32; 2], k: u32, cut: f64) -> Self {
         Self::tree(scene, resolution_px, k, cut, vec![LayerName::Radiance])
+    }
+
+    /// Radiance of a small image with one position per pixel, which tells how bright
+    /// the scene is whatever the size and the sampling of the images that are judged.
+    ///
+    /// # Errors
+    /// If the scene cannot be traced.
+    pub fn glance(scene: &'a Scene) -> Result<Vec<f64>, Error> {
+        let [width, height] = scene.camera.resolution_px;
+        let scaled = |side: u32| (side * GLANCE_PX / width.max(height)).max(1);
+        let job = Self::estimate(scene, [scaled(width), scaled(height)], 1, GLANCE_CUT);
+        let rendering = reference::render(scene, &job.request)?;
+        let radiance = rendering.layers.get(&LayerName::Radiance);
+        Ok(radiance.map(|layer| layer.data.clone()).unwrap_or_default())
     }
 
     fn tree(

@@ -27,7 +27,7 @@ pub struct Made {
 }
 
 /// Everything about a rendering that is not a layer.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Facts {
     /// What ran, with its times.
     pub passes: Vec<Pass>,
@@ -74,6 +74,15 @@ impl Made {
         let (layers, facts) = parts(rendering);
         scenes::image::write_exr(image, &layers)?;
         Ok(Self { id, image: image.to_owned(), layers: scenes::image::read(image)?, facts })
+    }
+
+    /// An image that a study has kept, without what else was told of it.
+    ///
+    /// # Errors
+    /// If the file cannot be read.
+    pub fn kept(id: &str, image: &Path) -> Result<Self, Error> {
+        let layers = scenes::image::read(image)?;
+        Ok(Self { id: Id::known(id), image: image.to_owned(), layers, facts: Facts::default() })
     }
 
     fn read(id: &Id, folder: &Path) -> Result<Self, Error> {

@@ -4,13 +4,21 @@ use super::super::document::CameraText;
 use super::super::error::At;
 use super::{only_one, span_of};
 use crate::{Camera, Projection};
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use toml::Spanned;
 
 /// The camera of frame 0.
 pub(super) fn resolve(camera: &Spanned<CameraText>) -> Result<Camera, At> {
     let text = camera.get_ref();
-    let (eye, target) = (text.eye.0, text.target.get_ref().0);
+    let (written_eye, target) = (text.eye.0, text.target.get_ref().0);
+    let up = text.up.as_ref().map_or(DVec3::Y, |up| up.get_ref().0);
+    let eye = match text.orbit_deg {
+        Some(turn) => {
+            let turn = DQuat::from_axis_angle(up.normalize(), turn.0.to_radians());
+            target + turn * (written_eye - target)
+        }
+        None => written_eye,
+    };
     let view = target - eye;
     if view.length() <= 1e-12 * eye.length().max(target.length()) {
         return Err(At::meaning(
@@ -19,7 +27,6 @@ pub(super) fn resolve(camera: &Spanned<CameraText>) -> Result<Camera, At> {
             "move the target to what the camera looks at",
         ));
     }
-    let up = text.up.as_ref().map_or(DVec3::Y, |up| up.get_ref().0);
     if view.normalize().cross(up).length() < 1e-9 {
         return Err(At::meaning(
             text.up.as_ref().map_or(text.target.span(), Spanned::span),

@@ -38,7 +38,12 @@ pub(super) fn resolve(document: &Document, text: &str, base: &Path) -> Result<Sc
     Ok(Scene {
         name: String::new(),
         title: document.title.clone().unwrap_or_default(),
-        source: Source { path: None, text: text.to_owned(), sha256: fingerprint(text, files) },
+        source: Source {
+            path: None,
+            folder: Some(base.to_owned()),
+            text: text.to_owned(),
+            sha256: fingerprint(text, files),
+        },
         camera,
         environment,
         media,
