@@ -82,14 +82,22 @@ fn with_layer(path: &Path) -> (PathBuf, Option<String>) {
 }
 
 fn picture(path: &Path, wanted: Wanted, alpha: Alpha) -> Result<Picture, Error> {
-    let bytes = bytes(path)?;
-    let kind = kind(path, &bytes)?;
-    let mut picture = match kind {
-        Kind::Exr => return exr::read(path, &bytes, wanted, alpha),
-        Kind::Radiance => hdr::read(path, &bytes)?,
-        Kind::Pfm => pfm::read(path, &bytes)?,
-        Kind::Png => raster::read_png(path, &bytes, alpha)?,
-        Kind::Other(format) => raster::read_other(path, &bytes, format, alpha)?,
+    picture_of(path, &bytes(path)?, wanted, alpha)
+}
+
+/// The picture in the bytes of a file of this name.
+pub(super) fn picture_of(
+    path: &Path,
+    bytes: &[u8],
+    wanted: Wanted,
+    alpha: Alpha,
+) -> Result<Picture, Error> {
+    let mut picture = match kind(path, bytes)? {
+        Kind::Exr => return exr::read(path, bytes, wanted, alpha),
+        Kind::Radiance => hdr::read(path, bytes)?,
+        Kind::Pfm => pfm::read(path, bytes)?,
+        Kind::Png => raster::read_png(path, bytes, alpha)?,
+        Kind::Other(format) => raster::read_other(path, bytes, format, alpha)?,
     };
     if let Wanted::Image(Some(layer)) = wanted {
         let (path, layer) = (path.to_owned(), layer.to_owned());
