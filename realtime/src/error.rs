@@ -113,6 +113,9 @@ pub enum Error {
         /// What the driver said.
         what: String,
     },
+    /// A transparent body without an inside.
+    #[error("{0}")]
+    NotABody(scenes::topology::NotABody),
     /// More of something than the shaders have room for.
     #[error("a scene of {count} {what} cannot be drawn by any method; there may be {most}")]
     TooMany {

@@ -89,7 +89,7 @@ impl Geometry {
         let numbers = numbered(&solids);
         geometry.nested = numbers.iter().any(|solid| *solid > 0);
         for (object, solid) in solids.iter().zip(numbers) {
-            geometry.add_body(scene, object, solid, time_s);
+            geometry.add_body(scene, object, solid, time_s)?;
         }
         for object in opaque {
             geometry.add_opaque(object, time_s);
@@ -97,8 +97,16 @@ impl Geometry {
         Ok(geometry)
     }
 
-    fn add_body(&mut self, scene: &Scene, object: &Object, solid: u32, time_s: f64) {
-        let Some(medium) = scene.medium_of(object) else { return };
+    fn add_body(
+        &mut self,
+        scene: &Scene,
+        object: &Object,
+        solid: u32,
+        time_s: f64,
+    ) -> Result<(), Error> {
+        let Some(medium) = scene.medium_of(object) else { return Ok(()) };
+        let shape = object.shape_at(time_s);
+        scenes::topology::must_be_body(&object.name, &shape).map_err(Error::NotABody)?;
         self.absorbs |= medium.absorbs();
         self.media.push(Body {
             eta: medium.eta.get() as f32,
@@ -110,7 +118,6 @@ impl Geometry {
         });
         self.disperses |= medium.is_dispersive();
         let number = self.media.len() as u32;
-        let shape = object.shape_at(time_s);
         let world_from_object = object.world_from_object_at(time_s);
         let placed =
             PlacedShape { shape: &shape, world_from_object, normals: object.normals, number };
@@ -123,6 +130,7 @@ impl Geometry {
             bumps[number as usize - 1] = Bump::new(bump, &world_from_object, self.centre);
         }
         self.add_inside(object, &placed);
+        Ok(())
     }
 
     /// Cracks and air.

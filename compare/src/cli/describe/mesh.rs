@@ -27,7 +27,7 @@ pub(in crate::cli) struct Args {
     repair: Option<PathBuf>,
     /// Longest hole that --repair closes, metres along its edge [default: the diagonal of
     /// the mesh's bounds]
-    #[arg(long, value_name = "METRES", requires = "repair", value_parser = length)]
+    #[arg(long, value_name = "METRES", requires = "repair", value_parser = length, allow_negative_numbers = true)]
     longest_hole: Option<f64>,
 }
 
