@@ -25,11 +25,21 @@ pub enum Format {
     Gltf,
 }
 
+impl std::fmt::Display for Format {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Mitsuba => "Mitsuba",
+            Self::Pbrt => "pbrt",
+            Self::Gltf => "glTF",
+        })
+    }
+}
+
 /// Why a scene could not be written.
 #[derive(Debug, thiserror::Error)]
 pub enum ExportError {
     /// The format has no words for part of the scene.
-    #[error("{format:?} cannot express {what} of \"{object}\"\n{advice}")]
+    #[error("{format} cannot express {what} of \"{object}\"\n{advice}")]
     Inexpressible {
         /// Target.
         format: Format,

@@ -34,8 +34,10 @@ pub(crate) struct Cut {
     pub(crate) crosses: bool,
 }
 
-/// Cuts a polygon of at least three corners, seen along its normal: concave ones
-/// without overlaps, quads along the shorter diagonal that lies inside.
+/// Cuts a polygon of at least three corners, seen along its normal, without overlaps:
+/// quads along the shorter diagonal that lies inside, others so that no circle through
+/// a triangle's corners holds another corner that it sees (constrained Delaunay), which
+/// does not depend on where the list begins.
 pub(crate) fn cut(corners: &[DVec3]) -> Cut {
     let normal = area_vector(corners);
     let count = corners.len() as u32;
@@ -67,12 +69,15 @@ fn quad(corners: &[DVec3], normal: DVec3) -> Option<Vec<[u32; 3]>> {
 fn ears(corners: &[DVec3], normal: DVec3) -> Option<Vec<[u32; 3]>> {
     let normal = normal.try_normalize()?;
     let (right, up) = normal.any_orthonormal_pair();
-    let flat = corners.iter().map(|p| {
-        let p = *p - corners[0];
-        DVec2::new(p.dot(right), p.dot(up)).to_array()
-    });
+    let flat: Vec<[f64; 2]> = corners
+        .iter()
+        .map(|p| {
+            let p = *p - corners[0];
+            DVec2::new(p.dot(right), p.dot(up)).to_array()
+        })
+        .collect();
     let mut numbers: Vec<u32> = Vec::new();
-    Earcut::new().earcut(flat, &[], &mut numbers);
+    Earcut::new().earcut_slice(&flat, &[], &mut numbers);
     let mut triangles = numbers.as_chunks().0.to_vec();
     let count = corners.len() as u32;
     let is_along = |[a, b, c]: &[u32; 3]| {
@@ -82,7 +87,9 @@ fn ears(corners: &[DVec3], normal: DVec3) -> Option<Vec<[u32; 3]>> {
     if !triangles.iter().any(is_along) {
         triangles.iter_mut().for_each(|triangle| triangle.swap(1, 2));
     }
-    with_skipped_corners(triangles, count)
+    let mut triangles = with_skipped_corners(triangles, count)?;
+    earcut::refine(triangles.as_flattened_mut(), &flat);
+    has_sides(&triangles, count).then_some(triangles)
 }
 
 /// Corners that lie on a straight side are skipped by the cutter, and would leave
@@ -110,6 +117,7 @@ fn with_skipped_corners(mut open: Vec<[u32; 3]>, count: u32) -> Option<Vec<[u32;
         sides.extend([(from, between), (between, to), (between, apex), (apex, between)]);
         open.extend([[from, between, apex], [between, to, apex]]);
     }
+    // What the refiner asks for: each side of the polygon once, the others in pairs.
     (done.len() + 2 == count as usize && has_sides(&done, count)).then_some(done)
 }
 

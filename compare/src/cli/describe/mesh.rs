@@ -272,6 +272,9 @@ fn mended_lines(mended: &Mended<'_>) -> Vec<String> {
         ),
         format!("  holes of up to {:.6} m around are closed", mended.longest_hole_m),
     ];
+    if mended.holes_left > 0 {
+        lines.push("  --longest-hole METRES closes longer ones".to_owned());
+    }
     if mended.normals_dropped {
         lines.push("  its normals are left out: they are made from the faces".to_owned());
     }
