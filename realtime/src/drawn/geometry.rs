@@ -106,7 +106,7 @@ impl Geometry {
     ) -> Result<(), Error> {
         let Some(medium) = scene.medium_of(object) else { return Ok(()) };
         let shape = object.shape_at(time_s);
-        scenes::topology::must_be_body(&object.name, &shape).map_err(Error::NotABody)?;
+        scenes::topology::must_be_body(&object.name, shape.mesh()).map_err(Error::NotABody)?;
         self.absorbs |= medium.absorbs();
         self.media.push(Body {
             eta: medium.eta.get() as f32,
