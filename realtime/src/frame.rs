@@ -1,9 +1,12 @@
 //! The frame, in the order in which it runs. Read this first: [`PASSES`] is
 //! everything that happens on the GPU.
 
+use crate::composition::chosen::decided;
 use crate::composition::inputs::Inputs;
 use crate::drawn::frame_uniforms::{Viewed, upload_numbers};
 use crate::drawn::geometry::Geometry;
+use crate::error::Error;
+use crate::gpu::Gpu;
 use crate::gpu::allocator::Allocator;
 use crate::gpu::recorder::Recorder;
 use crate::gpu::resources::Outputs;
@@ -11,7 +14,6 @@ use crate::passes::{Listed, Maker, Making, Pass, Ready, Wanted};
 use crate::passes::{back, backdrop, cracks_and_air, front, normal_cube, peel, shade};
 use crate::plan::counted::Counted;
 use crate::plan::entries::Entries;
-use crate::{Error, Gpu};
 use scenes::Plan;
 use scenes::plan::Kind;
 
@@ -39,7 +41,7 @@ pub(crate) struct Composition<'a> {
 impl<'a> Composition<'a> {
     /// The last pass first: what it reads decides what runs before it.
     pub(crate) fn new(inputs: Inputs<'a>) -> Result<Self, Error> {
-        let inputs = inputs.decided()?;
+        let inputs = decided(inputs);
         let mut passes: Vec<Option<Box<dyn Pass>>> = Vec::new();
         for listed in PASSES.iter().rev() {
             let wanted = Wanted { inputs: &inputs, later: &passes };

@@ -1,7 +1,7 @@
 //! The frames that a request comes to.
 
-use crate::Gpu;
 use crate::composition::outputs::buffers;
+use crate::gpu::Gpu;
 use crate::request::Filter;
 use crate::request::Request;
 use scenes::{LayerName, View};

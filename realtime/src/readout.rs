@@ -3,12 +3,13 @@
 use crate::composition::layer_images::LayerImage;
 use crate::composition::outputs::{BUFFERS, SINGLE, buffers};
 use crate::drawn::geometry::Geometry;
+use crate::error::Error;
 use crate::frame::Frame;
 use crate::frames::FrameRequest;
+use crate::gpu::Gpu;
 use crate::gpu::readback;
 use crate::methods::Method;
 use crate::passes::peel;
-use crate::{Error, Gpu};
 use rayon::prelude::*;
 use scenes::{LayerName, Layers, View};
 

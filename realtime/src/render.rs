@@ -4,8 +4,10 @@ use crate::composition::inputs::Inputs;
 use crate::composition::outputs::{camera, outputs};
 use crate::drawn::frame_uniforms::Viewed;
 use crate::drawn::geometry::Geometry;
+use crate::error::Error;
 use crate::frame::{Composition, Frame};
 use crate::frames::{FrameRequest, frames};
+use crate::gpu::Gpu;
 use crate::gpu::allocator::Allocator;
 use crate::gpu::recorder::{Executed, Recorder};
 use crate::methods::{Method, Settings};
@@ -14,7 +16,6 @@ use crate::plan::timing::FrameTimes;
 use crate::readout::Readout;
 use crate::request::{Request, Timing};
 use crate::wgsl::Choices;
-use crate::{Error, Gpu};
 use scenes::plan::Buffer;
 use scenes::rendering::Provenance;
 use scenes::{Camera, Layers, Plan, Rendering, Scene};
@@ -30,7 +31,7 @@ pub fn plan(scene: &Scene, request: &Request) -> Result<Plan, Error> {
     let settings = Settings::new(method, &request.parameters)?;
     let asked = Asked::new(scene, request, method, &settings)?;
     let mut plan = Plan::default();
-    for frame in frames(request, &outputs(method, request)?) {
+    for frame in frames(request, &outputs(method, scene, request)?) {
         let composition = Composition::new(asked.inputs(&frame))?;
         let geometry = asked.drawn(&composition);
         add(&mut plan, frame.label, composition.plan(&geometry, frame.is_timed(), None));
@@ -52,7 +53,7 @@ pub fn render(gpu: &Gpu, scene: &Scene, request: &Request) -> Result<Rendering, 
     let mut settings = Settings::new(method, &request.parameters)?;
     peel::decide(&mut settings, gpu);
     let asked = Asked::new(scene, request, method, &settings)?;
-    let wanted = outputs(method, request)?;
+    let wanted = outputs(method, scene, request)?;
     gpu.scoped(|| asked.run(gpu, &wanted))
 }
 

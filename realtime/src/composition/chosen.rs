@@ -2,10 +2,9 @@
 //! by what was asked for, or by a word of a parameter.
 
 use super::inputs::Inputs;
-use crate::methods::{Settings, Value};
+use crate::methods::Settings;
 use crate::request::Filter;
-use crate::wgsl::{Choices, Source, named};
-use crate::{Error, methods::Method};
+use crate::wgsl::{Choices, Source};
 use scenes::{Environment, Projection};
 
 /// Images that the shading pass can write.
@@ -21,8 +20,27 @@ const WITHOUT_PARAMETER: [(&str, &str); 6] = [
     ("peel_camera", "peel_camera_screen"),
 ];
 
+/// Makes the choices that all passes share, and finds out whether the method has
+/// any say.
+pub(crate) fn decided(mut inputs: Inputs<'_>) -> Inputs<'_> {
+    let Inputs { method, settings, .. } = inputs;
+    let mut choices = choices(&inputs);
+    let bends_anyway = method.bends_at_equal_index(settings);
+    inputs.index_matched = !bends_anyway && inputs.is_index_matched();
+    if inputs.index_matched {
+        choices.choose("method", "undeviated");
+        choices.choose("reflection", "reflect_nothing");
+    } else {
+        choices.give("method", method.source.clone());
+    }
+    let at_vertices = method.at_vertices(settings).filter(|_| !inputs.index_matched);
+    choices.choose("vertex_vector", at_vertices.as_deref().unwrap_or("vertex_none"));
+    inputs.choices = choices;
+    inputs
+}
+
 /// Every choice.
-pub(crate) fn choices(inputs: &Inputs<'_>) -> Choices {
+fn choices(inputs: &Inputs<'_>) -> Choices {
     let mut choices = Choices::default();
     by_parameters(inputs.settings, &mut choices);
     by_scene(inputs, &mut choices);
@@ -33,33 +51,15 @@ pub(crate) fn choices(inputs: &Inputs<'_>) -> Choices {
     choices
 }
 
-/// A word of a parameter chooses the file `PARAMETER_WORD`, where there is one, and
-/// a number chooses `PARAMETER_zero` or `PARAMETER_nonzero`. All numbers are
-/// constants in `parameters`.
+/// What the parameters choose. All numbers are constants in `parameters`.
 fn by_parameters(settings: &Settings, choices: &mut Choices) {
     for (need, file) in WITHOUT_PARAMETER {
         choices.choose(need, file);
     }
-    let mut constants = String::new();
-    for (name, value) in settings.all() {
-        let constant = name.to_uppercase();
-        let kind = match value {
-            Value::Word(word) => word.replace('-', "_"),
-            Value::Number(number) => {
-                constants += &format!("const {constant}: f32 = {number:?};\n");
-                if *number == 0.0 { "zero".to_owned() } else { "nonzero".to_owned() }
-            }
-            Value::Whole(number) => {
-                constants += &format!("const {constant}: u32 = {number}u;\n");
-                if *number == 0 { "zero".to_owned() } else { "nonzero".to_owned() }
-            }
-        };
-        let file = format!("{name}_{kind}");
-        if named(&file).is_some() {
-            choices.choose(name, &file);
-        }
+    for (need, file) in settings.files() {
+        choices.choose(need, &file);
     }
-    choices.give("parameters", Source::new("parameters", constants));
+    choices.give("parameters", Source::new("parameters", settings.constants()));
     let reflects = !matches!(settings.word_if_any("fresnel"), None | Some("none"));
     choices.choose("reflection", if reflects { "reflect" } else { "reflect_nothing" });
 }
@@ -95,13 +95,60 @@ pub(crate) fn environment(inputs: &Inputs<'_>, drawn: bool) -> &'static str {
     }
 }
 
-/// Puts the method in: its file, and what it does at vertices. True if it changes
-/// the image even where all indices are equal.
-pub(crate) fn method(method: &Method, choices: &mut Choices) -> Result<bool, Error> {
-    choices.give("method", method.source.clone());
-    let files = choices.closure(&["method"])?;
-    let heads: Vec<_> = files.iter().map(Source::head).collect();
-    let at_vertices = heads.iter().find_map(|head| head.at_vertices.as_deref());
-    choices.choose("vertex_vector", at_vertices.unwrap_or("vertex_none"));
-    Ok(heads.iter().any(|head| head.bends_at_equal_index))
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a failing test may panic")]
+    use super::*;
+    use crate::drawn::geometry::Geometry;
+    use crate::methods::METHODS;
+    use crate::request::{Keep, Request};
+    use crate::wgsl::{FILES, Shader};
+    use scenes::View;
+
+    /// What only some passes choose.
+    const OF_PASSES: [(&str, &str); 5] = [
+        ("clip", "clip_depth"),
+        ("depth_interval", "interval_of_clip"),
+        ("intersect", "intersect_box"),
+        ("stored_interface", "peel_slots"),
+        ("targets", "front_targets"),
+    ];
+
+    /// No file is a template: with what it needs, each is WGSL.
+    #[test]
+    fn every_file_is_read_by_naga() {
+        let scene = scenes::builtin("ice-block").unwrap();
+        let geometry = Geometry::new(&scene, 0).unwrap();
+        let camera = &scene.camera;
+        let resolution_px = camera.resolution_px;
+        let view = View { resolution_px, positions_per_axis: 1, frame: 0, layers: Vec::new() };
+        let mut unread: Vec<&str> = FILES.iter().map(|(name, _)| *name).collect();
+        for method in METHODS.iter() {
+            let settings = Settings::new(method, &[].into()).unwrap();
+            let request = Request {
+                view: view.clone(),
+                method: method.id.to_owned(),
+                parameters: [].into(),
+                filter: Filter::Manual,
+                timing: None,
+                keep: Keep::Needed,
+            };
+            let inputs = decided(Inputs {
+                method,
+                settings: &settings,
+                scene: &scene,
+                camera,
+                geometry: &geometry,
+                request: &request,
+                outputs: &OUTPUTS,
+                resolution_px,
+                choices: Choices::default(),
+                index_matched: false,
+            });
+            let mut choices = inputs.choices;
+            OF_PASSES.iter().for_each(|(need, file)| choices.choose(need, file));
+            unread.retain(|file| Shader::compose(&[file], &choices).is_err());
+        }
+        assert!(unread.is_empty(), "{unread:?}");
+    }
 }

@@ -1,8 +1,6 @@
 //! What passes are composed from: what was asked for, and what follows from that
 //! alone.
 
-use super::chosen;
-use crate::Error;
 use crate::drawn::geometry::Geometry;
 use crate::drawn::projection::{in_view, projected_px};
 use crate::drawn::uniforms::Body;
@@ -25,25 +23,13 @@ pub(crate) struct Inputs<'a> {
     pub(crate) outputs: &'a [&'static str],
     /// Of the surface buffers.
     pub(crate) resolution_px: [u32; 2],
-    /// Files for the shaders' needs; made by [`Inputs::decided`].
+    /// Files for the shaders' needs; made by [`super::chosen::decided`].
     pub(crate) choices: Choices,
-    /// Nothing bends light here; found by [`Inputs::decided`].
+    /// Nothing bends light here; found by [`super::chosen::decided`].
     pub(crate) index_matched: bool,
 }
 
 impl Inputs<'_> {
-    /// Makes the choices that all passes share.
-    pub(crate) fn decided(mut self) -> Result<Self, Error> {
-        self.choices = chosen::choices(&self);
-        let bends_anyway = chosen::method(self.method, &mut self.choices)?;
-        self.index_matched = !bends_anyway && self.is_index_matched();
-        if self.index_matched {
-            self.choices.choose("method", "undeviated");
-            self.choices.choose("reflection", "reflect_nothing");
-        }
-        Ok(self)
-    }
-
     /// Nothing that could be left out is.
     pub(crate) fn keeps_all(&self) -> bool {
         self.request.keep == Keep::Everything
@@ -76,7 +62,7 @@ impl Inputs<'_> {
     }
 
     /// The bodies have the index of what is around them and take no light.
-    fn is_index_matched(&self) -> bool {
+    pub(super) fn is_index_matched(&self) -> bool {
         let outside = self.scene.media[0].eta.get();
         let same = |body: &Body| (f64::from(body.eta) / outside - 1.0).abs() < 1e-7;
         let geometry = self.geometry;

@@ -1,10 +1,10 @@
 //! The images that a request comes to.
 
 use super::layer_images::LayerImage;
-use crate::Error;
+use crate::error::Error;
 use crate::methods::Method;
 use crate::request::Request;
-use scenes::{Camera, LayerName, Scene};
+use scenes::{Camera, LayerName, Scene, Surface};
 
 /// Names of the intermediate buffers that were asked for.
 pub(crate) fn buffers(request: &Request) -> Vec<&str> {
@@ -53,13 +53,24 @@ pub(crate) fn camera(scene: &Scene, request: &Request) -> Camera {
 }
 
 /// Images that the shading pass must write.
-pub(crate) fn outputs(method: &Method, request: &Request) -> Result<Vec<&'static str>, Error> {
+///
+/// # Errors
+/// If there is no such image, or a path is asked for in what is not the medium of
+/// every body: methods count metres inside bodies, whichever they are.
+pub(crate) fn outputs(
+    method: &Method,
+    scene: &Scene,
+    request: &Request,
+) -> Result<Vec<&'static str>, Error> {
     check_size(request)?;
     let mut outputs = Vec::new();
     for layer in &request.view.layers {
         let row = SINGLE.iter().find(|row| (row.is)(layer));
         let output = match (layer, row) {
             (LayerName::Radiance | LayerName::Coverage, _) => "radiance",
+            (LayerName::Path(medium), _) if !is_the_medium(scene, medium) => {
+                return Err(unknown(method, layer));
+            }
             (_, Some(row)) => row.output,
             (LayerName::Buffer(name), _)
                 if BUFFERS.contains(&name.as_str()) || LayerImage::named(name).is_some() =>
@@ -75,12 +86,19 @@ pub(crate) fn outputs(method: &Method, request: &Request) -> Result<Vec<&'static
     Ok(outputs)
 }
 
+/// All bodies are of that medium.
+fn is_the_medium(scene: &Scene, name: &str) -> bool {
+    let bodies =
+        scene.objects.iter().filter(|object| matches!(object.surface, Surface::Dielectric { .. }));
+    bodies.into_iter().all(|body| scene.medium_of(body).is_some_and(|medium| medium.name == name))
+}
+
 fn unknown(method: &Method, layer: &LayerName) -> Error {
     Error::UnknownLayer {
         method: method.id.to_owned(),
         layer: layer.to_string(),
         available: format!(
-            "radiance, coverage, exit, first, hit2, events, flags, path.<medium>, {}, layer_count, \
+            "radiance, coverage, exit, first, hit2, events, flags, path.<medium> (where all bodies are of it), {}, layer_count, \
              layer_depth.<n>, layer_normal.<n>, layer_facing.<n>",
             BUFFERS.join(", ")
         ),

@@ -93,7 +93,8 @@ impl Drawables {
         let start = self.corners.len() as u32;
         let smooth = object.normals == Normals::Smooth;
         self.smooth |= smooth;
-        let normals = if smooth { Some(smooth_normals(mesh)) } else { None };
+        let made = (smooth && mesh.normals.is_none()).then(|| scenes::normals::smooth(mesh));
+        let normals = mesh.normals.as_ref().filter(|_| smooth).or(made.as_ref());
         let normal_matrix: DMat3 = placed.matrix3.inverse().transpose();
         // A mirrored placement turns the triangles' sense of rotation round.
         let mirrored = placed.matrix3.determinant() < 0.0;
@@ -105,15 +106,10 @@ impl Drawables {
             let order = if mirrored { [0, 2, 1] } else { [0, 1, 2] };
             self.vertices.push(order.map(|k| triangle[k]));
             for k in order {
-                let normal = match (&normals, &mesh.normals) {
-                    (None, _) => face,
-                    (Some(_), Some(own)) => (normal_matrix
-                        * own.values[own.indices[index][k] as usize])
-                        .normalize_or(face),
-                    (Some(made), None) => {
-                        (normal_matrix * made[triangle[k] as usize]).normalize_or(face)
-                    }
-                };
+                let normal = normals.map_or(face, |own| {
+                    let normal = own.values[own.indices[index][k] as usize];
+                    (normal_matrix * normal).normalize_or(face)
+                });
                 self.corners.push(Corner {
                     p_lc: points[k].as_vec3().to_array(),
                     normal_ws: normal.as_vec3().to_array(),
@@ -177,18 +173,4 @@ impl Drawables {
         };
         self.draws.iter().filter_map(formula).collect()
     }
-}
-
-/// Means of the triangles' normals, weighted by the angle at the vertex.
-fn smooth_normals(mesh: &Mesh) -> Vec<DVec3> {
-    let mut sums = vec![DVec3::ZERO; mesh.positions.len()];
-    for (index, triangle) in mesh.triangles.iter().enumerate() {
-        let p = mesh.corners(index);
-        let face = (p[1] - p[0]).cross(p[2] - p[0]).normalize_or_zero();
-        for i in 0..3 {
-            let (a, b) = (p[(i + 1) % 3] - p[i], p[(i + 2) % 3] - p[i]);
-            sums[triangle[i] as usize] += a.cross(b).length().atan2(a.dot(b)) * face;
-        }
-    }
-    sums
 }

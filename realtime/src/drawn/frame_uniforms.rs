@@ -2,9 +2,10 @@
 
 use crate::drawn::geometry::Geometry;
 use crate::drawn::uniforms::{self, Bodies, MAX_BODIES};
+use crate::error::Error;
+use crate::gpu::Gpu;
 use crate::gpu::allocator::Allocator;
 use crate::gpu::resources::Outputs;
-use crate::{Error, Gpu};
 use encase::ShaderType;
 use glam::{DMat4, DVec3, Mat4, Vec2, Vec3, Vec4};
 

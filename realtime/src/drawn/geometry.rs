@@ -1,11 +1,11 @@
 //! What one frame shows: the bodies, what is inside them, and what is around.
 
-use crate::Error;
 use crate::drawn::drawables::{Drawables, PlacedShape};
 use crate::drawn::uniforms::{Body, Bump, Light, MAX_BODIES, MAX_LIGHTS, Paint};
+use crate::error::Error;
 use glam::{DVec3, Vec3};
 use scenes::scene::Normals;
-use scenes::{Object, Scene, Shape, Surface};
+use scenes::{Object, Scene, Shape, Surface, box_corners};
 
 /// Everything that is drawn, at the time of one frame.
 #[derive(Clone, Debug)]
@@ -34,7 +34,8 @@ pub(crate) struct Geometry {
     pub(crate) centre: DVec3,
     /// Radius about the centre that holds every bounded object, metres.
     pub(crate) radius_m: f64,
-    /// Corners of the bodies' bounds, world space, metres.
+    /// Corners of the bodies' bounds, world space, metres; not finite where a body has
+    /// no bounds, and then beyond no side of the view.
     pub(crate) outlines: Vec<[DVec3; 8]>,
     /// Middle of the bodies, local space.
     pub(crate) middle_lc: Vec3,
@@ -121,7 +122,8 @@ impl Geometry {
         let world_from_object = object.world_from_object_at(time_s);
         let placed =
             PlacedShape { shape: &shape, world_from_object, normals: object.normals, number };
-        self.outlines.push(corners(shape.bounds()).map(|p| world_from_object.transform_point3(p)));
+        self.outlines
+            .push(box_corners(shape.bounds()).map(|p| world_from_object.transform_point3(p)));
         self.bodies.add(&placed, 1e4 * self.radius_m);
         if let Some(bump) = &object.bump {
             // The bent normal needs the unbent one beside it.
@@ -225,14 +227,6 @@ fn is_small_solid_about(shape: &Shape, at: DVec3, reach_m: f64) -> bool {
         }
         Shape::Mesh(_) | Shape::Slab { .. } | Shape::HalfSpace => false,
     }
-}
-
-/// Corners of a box; not finite where it has no bounds, and then beyond no side.
-fn corners([low, high]: [DVec3; 2]) -> [DVec3; 8] {
-    std::array::from_fn(|i| {
-        let pick = |bit: usize, l: f64, h: f64| if i >> bit & 1 == 0 { l } else { h };
-        DVec3::new(pick(0, low.x, high.x), pick(1, low.y, high.y), pick(2, low.z, high.z))
-    })
 }
 
 /// Middle of the bodies' bounds; the centre if none is bounded.

@@ -210,9 +210,18 @@ mod tests {
     fn uniforms_have_the_same_names_order_and_size_in_rust_and_in_wgsl() {
         assert_eq!(in_rust!(FrameUniform), in_wgsl(FRAME, "Frame"));
         assert_eq!(in_rust!(Body), in_wgsl(FRAME, "Body"));
-        let analytic = include_str!("../shaders/raster/raster_analytic.wgsl");
-        let analytic = &analytic[..analytic.find("@group").unwrap()];
-        assert_eq!(in_rust!(Analytic), in_wgsl(analytic, "Analytic"));
+        let before_bindings = |file: &str| {
+            let text = crate::wgsl::named(file).unwrap().text;
+            text[..text.find("@group").unwrap()].to_owned()
+        };
+        let analytic = before_bindings("raster_analytic");
+        assert_eq!(in_rust!(Analytic), in_wgsl(&analytic, "Analytic"));
+        assert_eq!(in_rust!(Bump), in_wgsl(&before_bindings("bump"), "Bump"));
+        assert_eq!(in_rust!(Interior), in_wgsl(&before_bindings("interior"), "Interior"));
+        let opaque = before_bindings("opaque");
+        assert_eq!(in_rust!(Paint), in_wgsl(&opaque, "Paint"));
+        assert_eq!(in_rust!(Light), in_wgsl(&opaque, "Light"));
+        assert_eq!(in_rust!(Surroundings), in_wgsl(&opaque, "Surroundings"));
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! The wrapper around wgpu's memory. It writes down what was allocated, by itself.
 
-use crate::{Error, Gpu};
+use crate::error::Error;
+use crate::gpu::Gpu;
 use scenes::plan::Buffer;
 use std::cell::RefCell;
 

@@ -1,9 +1,10 @@
 //! The environment's texels on the GPU: those of the scene's cube, nothing else.
 
+use crate::error::Error;
+use crate::gpu::Gpu;
 use crate::gpu::allocator::Allocator;
 use crate::gpu::resources::Outputs;
 use crate::wgsl::Shader;
-use crate::{Error, Gpu};
 
 use glam::DVec3;
 use scenes::{Cube, Environment};

@@ -6,7 +6,7 @@ pub(crate) mod readback;
 pub(crate) mod recorder;
 pub(crate) mod resources;
 
-use crate::Error;
+use crate::error::Error;
 use serde::{Deserialize, Serialize};
 use std::future::Future;
 use std::pin::pin;

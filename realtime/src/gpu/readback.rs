@@ -1,6 +1,7 @@
 //! From GPU memory to ours.
 
-use crate::{Error, Gpu};
+use crate::error::Error;
+use crate::gpu::Gpu;
 
 use std::sync::mpsc;
 

@@ -2,7 +2,8 @@
 //! allocator does what was allocated, by itself: the planner has no say here, so
 //! that a plan and a run can disagree and a test can notice.
 
-use crate::{Error, Gpu};
+use crate::error::Error;
+use crate::gpu::Gpu;
 
 /// Records one frame.
 pub(crate) struct Recorder<'g> {

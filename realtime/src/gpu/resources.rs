@@ -1,7 +1,8 @@
 //! What passes hand on, and bind groups made from what a shader really uses.
 
+use crate::error::Error;
+use crate::gpu::Gpu;
 use crate::wgsl::Shader;
-use crate::{Error, Gpu};
 
 use std::collections::BTreeMap;
 

@@ -11,8 +11,8 @@ mod user_file;
 pub use registry::METHODS;
 pub use settings::{Settings, Value};
 
-use crate::Error;
-use crate::wgsl::{self, Source};
+use crate::error::Error;
+use crate::wgsl::{self, Head, Source};
 
 /// One approximation.
 pub struct Method {
@@ -83,6 +83,30 @@ impl Method {
             wanted: wanted.to_owned(),
             available: METHODS.iter().map(|method| method.id).collect::<Vec<_>>().join(", "),
         })
+    }
+
+    /// Light bends at vertices and what comes of it is interpolated between them, or
+    /// the way to the eye is: triangles show.
+    #[must_use]
+    pub fn bends_at_vertices(&self, settings: &Settings) -> bool {
+        self.at_vertices(settings).is_some()
+    }
+
+    /// The image is another than that of nothing even where all indices are equal.
+    #[must_use]
+    pub fn bends_at_equal_index(&self, settings: &Settings) -> bool {
+        self.heads(settings).any(|head| head.bends_at_equal_index)
+    }
+
+    /// The file of what it does at vertices.
+    pub(crate) fn at_vertices(&self, settings: &Settings) -> Option<String> {
+        self.heads(settings).find_map(|head| head.at_vertices)
+    }
+
+    /// Heads of its own file and of those that its parameters choose.
+    fn heads(&self, settings: &Settings) -> impl Iterator<Item = Head> {
+        let chosen: Vec<_> = settings.files().filter_map(|(_, file)| wgsl::named(&file)).collect();
+        [self.source.head()].into_iter().chain(chosen.into_iter().map(|file| file.head()))
     }
 
     /// The WGSL of a user's method.

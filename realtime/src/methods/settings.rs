@@ -1,7 +1,8 @@
 //! Parameters with their defaults filled in and their ranges checked.
 
 use super::{Kind, Method, Parameter};
-use crate::Error;
+use crate::error::Error;
+use crate::wgsl;
 use std::collections::BTreeMap;
 
 /// A parameter's value.
@@ -69,11 +70,6 @@ impl Settings {
         }
     }
 
-    /// Every parameter and its value.
-    pub(crate) fn all(&self) -> impl Iterator<Item = (&'static str, &Value)> {
-        self.0.iter().map(|(name, value)| (*name, value))
-    }
-
     /// A word.
     ///
     /// # Panics
@@ -91,6 +87,34 @@ impl Settings {
             Some(Value::Word(value)) => Some(value),
             _ => None,
         }
+    }
+
+    /// Needs of the shaders that parameters decide, with the names of files: a word
+    /// chooses `PARAMETER_WORD` and a number `PARAMETER_zero` or `PARAMETER_nonzero`,
+    /// where there is such a file.
+    pub(crate) fn files(&self) -> impl Iterator<Item = (&'static str, String)> {
+        let named = self.0.iter().map(|(name, value)| {
+            let kind = match value {
+                Value::Word(word) => word.replace('-', "_"),
+                Value::Number(0.0) | Value::Whole(0) => "zero".to_owned(),
+                Value::Number(_) | Value::Whole(_) => "nonzero".to_owned(),
+            };
+            (*name, format!("{name}_{kind}"))
+        });
+        named.filter(|(_, file)| wgsl::named(file).is_some())
+    }
+
+    /// Every number as a constant of WGSL that is called like it.
+    pub(crate) fn constants(&self) -> String {
+        let constants = self.0.iter().filter_map(|(name, value)| {
+            let name = name.to_uppercase();
+            match value {
+                Value::Number(number) => Some(format!("const {name}: f32 = {number:?};\n")),
+                Value::Whole(number) => Some(format!("const {name}: u32 = {number}u;\n")),
+                Value::Word(_) => None,
+            }
+        });
+        constants.collect()
     }
 
     /// Every parameter as text, for provenance.

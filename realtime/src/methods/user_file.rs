@@ -7,8 +7,8 @@
 //! without a line of needs it may call everything in `shaders/methods/anything.wgsl`.
 
 use super::{METHODS, Method};
-use crate::Error;
-use crate::wgsl::Source;
+use crate::error::Error;
+use crate::wgsl::{self, Source};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
@@ -41,6 +41,11 @@ pub(super) fn method(path: &str) -> Result<&'static Method, Error> {
         return Err(fail(format!("a method is called \"{stem}\" already; rename the file")));
     }
     let read_from = Method::from_source(stem.to_owned().leak(), Source::new(path, text));
+    if let Some(file) = read_from.source.head().at_vertices
+        && wgsl::named(&file).is_none()
+    {
+        return Err(fail(format!("`// at vertices: {file}`: there is no such file")));
+    }
     let title = if read_from.title.is_empty() { "a method from a file" } else { read_from.title };
     let method = Box::leak(Box::new(Method { title, from_user: true, ..read_from }));
     read.insert(path.to_owned(), method);

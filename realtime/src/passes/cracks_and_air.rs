@@ -6,10 +6,10 @@
 use super::pipelines::ReadyRaster;
 use super::raster_pass::{Files, RasterPass, Sides, Target};
 use super::{Composed, Listed, Maker, Making, Pass, Ready, Record, Wanted};
-use crate::Error;
 use crate::composition::inputs::Inputs;
 use crate::drawn::frame_uniforms::{self, FrameUniform, Viewed};
 use crate::drawn::uniforms;
+use crate::error::Error;
 use crate::gpu::recorder::Recorder;
 use crate::gpu::resources::Outputs;
 use crate::plan::entries::Entries;

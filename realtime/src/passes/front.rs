@@ -3,8 +3,8 @@
 
 use super::raster_pass::{Files, RasterPass, Sides, Target};
 use super::{Composed, Listed, Making, Pass, Ready, Wanted};
-use crate::Error;
 use crate::composition::inputs::Inputs;
+use crate::error::Error;
 use crate::plan::entries::Entries;
 use scenes::plan::Kind;
 

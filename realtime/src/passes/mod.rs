@@ -14,9 +14,9 @@ pub(crate) mod shade;
 
 pub(crate) use pipelines::Maker;
 
-use crate::Error;
 use crate::composition::inputs::Inputs;
 use crate::drawn::frame_uniforms::Viewed;
+use crate::error::Error;
 use crate::gpu::recorder::Recorder;
 use crate::gpu::resources::Outputs;
 use crate::plan::counted::Counted;

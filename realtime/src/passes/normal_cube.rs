@@ -4,10 +4,10 @@
 use super::pipelines::ReadyRaster;
 use super::raster_pass::{Files, RasterPass, Sides, Target};
 use super::{Composed, Listed, Making, Pass, Ready, Record, Wanted};
-use crate::Error;
 use crate::composition::inputs::Inputs;
 use crate::drawn::frame_uniforms::FrameUniform;
 use crate::drawn::{frame_uniforms, uniforms};
+use crate::error::Error;
 use crate::gpu::recorder::Recorder;
 use crate::gpu::resources::Outputs;
 use crate::plan::entries::Entries;

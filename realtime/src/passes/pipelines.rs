@@ -5,11 +5,12 @@ use super::raster_pass::{RasterPass, Sides};
 use super::raster_state as state;
 use crate::drawn::drawables::{Draw, Drawables, Formula};
 use crate::drawn::uniforms::{self, Analytic};
+use crate::error::Error;
+use crate::gpu::Gpu;
 use crate::gpu::allocator::Allocator;
 use crate::gpu::recorder::Recorder;
 use crate::gpu::resources::Outputs;
 use crate::wgsl::Shader;
-use crate::{Error, Gpu};
 use std::ops::Range;
 use wgpu::TextureUsages;
 

@@ -1,8 +1,8 @@
 //! Raster passes, as far as they can be known without a GPU: what they draw, what
 //! they write, and the shaders that follow from it.
 
-use crate::Error;
 use crate::drawn::drawables::{Drawables, Formula};
+use crate::error::Error;
 use crate::plan::entries::Entries;
 use crate::wgsl::{Choices, Shader};
 use wgpu::TextureFormat;

@@ -2,9 +2,9 @@
 
 use super::pipelines::OverPixels;
 use super::{Composed, Listed, Making, Pass, Ready, Record, Wanted};
-use crate::Error;
 use crate::composition::chosen::OUTPUTS;
 use crate::composition::inputs::Inputs;
+use crate::error::Error;
 use crate::gpu::environment_upload::upload_environment;
 use crate::gpu::recorder::Recorder;
 use crate::gpu::resources::Outputs;

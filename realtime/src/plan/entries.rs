@@ -2,12 +2,12 @@
 
 use super::counted::Counted;
 use super::timing::THICKNESS;
-use crate::Filter;
 use crate::composition::inputs::Inputs;
 use crate::drawn::drawables::{Corner, Drawables};
 use crate::drawn::frame_uniforms::FrameUniform;
 use crate::drawn::geometry::Geometry;
 use crate::drawn::uniforms::{self, Bodies};
+use crate::request::Filter;
 use encase::ShaderType;
 use scenes::plan::{Buffer, Kind};
 use scenes::{Environment, Plan};

@@ -3,7 +3,7 @@
 
 use super::files::FILES;
 use super::source::Source;
-use crate::Error;
+use crate::error::Error;
 use std::collections::BTreeMap;
 
 /// The files that stand for needs which are no files themselves.

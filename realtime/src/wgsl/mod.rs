@@ -11,4 +11,4 @@ pub(crate) use composer::{Choices, named};
 #[cfg(test)]
 pub(crate) use files::FILES;
 pub(crate) use shader::Shader;
-pub(crate) use source::Source;
+pub(crate) use source::{Head, Source};

@@ -4,7 +4,7 @@
 
 use super::composer::Choices;
 use super::source::Source;
-use crate::Error;
+use crate::error::Error;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 
 /// A shader put together, parsed and validated.

@@ -1,7 +1,8 @@
 //! Leaving out changes no image, and what is not needed is really gone.
 
 use crate::*;
-use realtime::METHODS;
+use realtime::methods::Settings;
+use realtime::{METHODS, Method};
 use scenes::Rendering;
 
 fn bodies() -> Vec<Scene> {
@@ -60,15 +61,18 @@ fn the_image_is_the_same_with_and_without() {
 #[test]
 fn bodies_of_the_same_index_bend_nothing() {
     // Vectors between vertices and eq. 4 bend and reflect light even so.
-    let bends_anyway = |id: &str| id.ends_with("-vertex") || id == "blended";
-    for method in METHODS.iter().filter(|method| !bends_anyway(method.id)) {
+    let settings = |method: &Method| Settings::new(method, &[].into()).unwrap();
+    let bends = |method: &&Method| method.bends_at_equal_index(&settings(method));
+    let bending: Vec<_> = METHODS.iter().filter(bends).map(|method| method.id).collect();
+    assert_eq!(bending, ["dx7-vertex", "one-interface-vertex", "blended"]);
+    for method in METHODS.iter().filter(|method| !bends(method)) {
         let mut scene = bodies().remove(0);
         scene.media[1] = Medium::plain("same", Eta::try_from(1.0).unwrap());
         let (with, without) = (
             rendered(&scene, method.id, Keep::Needed),
             rendered(&scene, method.id, Keep::Everything),
         );
-        let ran = [&with, &without].map(bends);
+        let ran = [&with, &without].map(crate::bends);
         assert_eq!(ran, [false, method.id != "undeviated"], "{}", method.id);
         let passes = |r: &Rendering| r.passes.iter().map(|p| p.name.clone()).collect::<Vec<_>>();
         assert_eq!(passes(&with), ["front", "shade"], "{}", method.id);

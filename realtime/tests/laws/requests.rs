@@ -53,3 +53,32 @@ fn positions_lie_where_they_are_stated_to_lie() {
         assert_eq!(*share, met as f64 / 16.0, "pixel {pixel}");
     }
 }
+
+/// Methods count metres inside the bodies: those are a medium's only if all of the
+/// bodies are of it.
+#[test]
+fn a_path_is_that_of_the_bodies_medium_or_refused() {
+    let mut scene = scene_of(Shape::Sphere { radius_m: 1.0 }, 1.5, orthographic(2.1, [8, 8]));
+    let asked = |scene: &Scene, medium: &str| {
+        realtime::plan(scene, &request(scene, "multi", &[LayerName::Path(medium.into())]))
+    };
+    assert!(asked(&scene, "glass").is_ok());
+    let message = asked(&scene, "vacuum").unwrap_err().to_string();
+    assert!(message.contains("path.vacuum") && message.contains("all bodies"), "{message}");
+    // With a second body, of vacuum, it is nobody's.
+    scene.objects.push(Object::solid("bubble", Shape::Sphere { radius_m: 0.5 }, MediumId(0)));
+    assert!(asked(&scene, "glass").is_err() && asked(&scene, "vacuum").is_err());
+}
+
+/// Numbers that count something are whole.
+#[test]
+fn half_a_step_is_refused() {
+    let steps = |text: &str| {
+        let scene = scene_of(Shape::Sphere { radius_m: 1.0 }, 1.5, orthographic(2.1, [8, 8]));
+        let asked = request(&scene, "multi", &[LayerName::Radiance]);
+        realtime::plan(&scene, &with(asked, &[("binary_steps", text)]))
+    };
+    assert!(steps("6").is_ok());
+    let message = steps("6.5").unwrap_err().to_string();
+    assert!(message.contains("whole number"), "{message}");
+}

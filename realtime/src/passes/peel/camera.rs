@@ -1,9 +1,9 @@
 //! The camera that layers are collected with: the image's, or one of their own
 //! that holds all of the bodies, whatever the image shows.
 
-use crate::Error;
 use crate::composition::inputs::Inputs;
 use crate::composition::layer_images::asked_for;
+use crate::error::Error;
 use scenes::{Camera, Projection};
 
 /// Room around the ball that holds the bodies.

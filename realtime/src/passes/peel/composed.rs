@@ -3,10 +3,10 @@
 
 use super::camera;
 use super::strategy::Strategy;
-use crate::Error;
 use crate::composition::inputs::Inputs;
 use crate::composition::layer_images::MAX_LAYERS;
 use crate::drawn::frame_uniforms::FrameUniform;
+use crate::error::Error;
 use crate::passes::raster_pass::{Files, RasterPass, Sides, Target};
 use crate::plan::entries::Entries;
 use crate::wgsl::Shader;

@@ -1,10 +1,11 @@
 //! Reads layers back as images.
 
 use crate::composition::layer_images::LayerImage;
+use crate::error::Error;
+use crate::gpu::Gpu;
 use crate::gpu::readback;
 use crate::gpu::resources::Outputs;
 use crate::plan::counted::Counted;
-use crate::{Error, Gpu};
 
 /// Reads one. `nested`: normals are packed with whose boundary it is.
 pub(crate) fn read(

@@ -1,8 +1,9 @@
 //! The strategies of depth peeling, and what each asks of an adapter.
 
+use crate::error::Error;
+use crate::gpu::Gpu;
 use crate::methods::Settings;
 use crate::plan::counted::Counted;
-use crate::{Error, Gpu};
 
 use wgpu::Features;
 
