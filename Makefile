@@ -6,10 +6,14 @@ STUDY ?=
 # Mesa's device-selection layer would complain about a missing desktop session.
 export NODEVICE_SELECT = 1
 
-.PHONY: help setup study test test-all
+# Anything for the gate, for example: make gate GATE="--only ball"
+GATE ?= --quick
+
+.PHONY: help setup study gate test test-all
 
 help:
 	@echo "make study     judge every method on every default scene: table, report, images"
+	@echo "make gate      hold every watched method to what was accepted"
 	@echo "make test      all tests but the slow ones"
 	@echo "make test-all  all tests"
 	@echo "make setup     only prepare the machine (both of the above do it)"
@@ -19,6 +23,10 @@ setup:
 
 study: setup
 	$(CARGO) run --release -p snell -- study --out target/study $(STUDY)
+
+gate: setup
+	$(CARGO) run --release -p snell -- check compare/results/gate/gate.toml --out target/gate-out \
+		--junit target/gate-out/junit.xml $(GATE)
 
 test: setup
 	$(CARGO) test --release --workspace

@@ -1,6 +1,7 @@
 //! What can stop a command: where, what, and what to write instead.
 
 use crate::bench::BenchError;
+use crate::gate::GateError;
 use crate::image_pair::ImagePairError;
 use crate::metric::JudgementError;
 use crate::report::ReportError;
@@ -47,6 +48,9 @@ pub enum Error {
     /// Image files that cannot be compared.
     #[error(transparent)]
     ImagePair(#[from] ImagePairError),
+    /// A gate that cannot be run.
+    #[error(transparent)]
+    Gate(#[from] GateError),
     /// An image that no number can be made of.
     #[error("{}: {why}", path.display())]
     Image {

@@ -3,6 +3,7 @@
 
 mod arguments;
 mod describe;
+mod gate;
 mod judge;
 mod many;
 mod output;
@@ -12,6 +13,7 @@ mod status;
 use crate::Error;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use describe::{adapters, export, mesh, methods, plan, scenes};
+use gate::{baseline, check};
 use judge::{bench, compare, report, study};
 use many::{collect, jobs, run};
 use output::Output;
@@ -48,6 +50,8 @@ enum Command {
     Report(report::Args),
     Mesh(mesh::Args),
     Export(export::Args),
+    Baseline(baseline::Args),
+    Check(check::Args),
     Bench(bench::Args),
 }
 
@@ -69,6 +73,8 @@ impl Command {
             Self::Report(args) => report::run(args, output),
             Self::Mesh(args) => mesh::run(args, output),
             Self::Export(args) => export::run(args, output),
+            Self::Baseline(args) => baseline::run(args, output),
+            Self::Check(args) => check::run(args, output),
             Self::Bench(args) => bench::run(args, output),
         }
     }

@@ -9,4 +9,8 @@ pub(super) const EXIT_STATUS: &str = "Exit status: 0 done, 2 could not run.";
 pub(super) enum Status {
     /// It did what it was asked.
     Done = 0,
+    /// A limit is passed, or a method got worse.
+    GateFailed = 1,
+    /// Intervals are too wide to tell.
+    Inconclusive = 3,
 }

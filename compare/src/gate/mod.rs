@@ -7,7 +7,18 @@
 //! and base against the same truth are judged ([`difference`]), those of all
 //! cells together ([`verdict`]).
 
+mod adapter_class;
+pub mod cell;
 pub mod difference;
+mod error;
+pub mod file;
+pub mod limit;
+pub mod output;
 #[cfg(test)]
 mod power;
+pub mod run;
+pub mod time;
 pub mod verdict;
+
+pub use adapter_class::AdapterClass;
+pub use error::GateError;

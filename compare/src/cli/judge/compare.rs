@@ -4,8 +4,10 @@ use crate::Error;
 use crate::cli::arguments::values::{alpha, display_ev, exposures};
 use crate::cli::output::{Output, table};
 use crate::cli::status::Status;
+use crate::gate::limit::{self, Limit};
+use crate::gate::verdict::worst;
 use crate::image_pair::{Comparison, Question, compare_files};
-use crate::metric::{Exposures, Measurement};
+use crate::metric::{Exposures, Mask, Measurement};
 use crate::results::{NotDone, Validity};
 use scenes::image::Alpha;
 use serde::Serialize;
@@ -41,6 +43,10 @@ pub(in crate::cli) struct Args {
     /// STOPS, clamp it to 0..1 and encode it as sRGB
     #[arg(long, value_name = "ev=STOPS", value_parser = display_ev, allow_hyphen_values = true)]
     display: Option<f64>,
+    /// Fail, with exit status 1, beyond this: most, or least where more is better, such as
+    /// flip_hdr=0.05; over all pixels; repeat for several
+    #[arg(long = "limit", value_name = "NAME=VALUE", value_parser = Limit::read)]
+    limits: Vec<Limit>,
 }
 
 /// A line of the answer for programs.
@@ -71,11 +77,33 @@ pub(in crate::cli) fn run(args: &Args, output: Output) -> Result<Status, Error> 
         output.line(&left_out(&judgement.left_out))?;
         output.line(&format!("alpha: {alpha}"))?;
     }
+    if !args.limits.is_empty() {
+        return held(args, &judgement.measurements, output);
+    }
     let invalid = |m: &Measurement| m.status == Validity::Invalid;
     match judgement.measurements.iter().find(|m| invalid(m)) {
         Some(m) => Err(Error::Image { path: args.test.clone(), why: m.reason.clone() }),
         None => Ok(Status::Done),
     }
+}
+
+/// Says which limits hold. An image with NaN or infinity holds none.
+fn held(args: &Args, measurements: &[Measurement], output: Output) -> Result<Status, Error> {
+    let pair = args.test.display().to_string();
+    let checks =
+        limit::check(&pair, measurements, Mask::All, &args.limits).map_err(Error::Usage)?;
+    for check in &checks {
+        if output.json {
+            output.object("snell.check/1", check)?;
+            continue;
+        }
+        let value = check.head.map_or_else(|| "no value".to_owned(), |value| format!("{value:.6}"));
+        let limit = check.margin.unwrap_or_default();
+        let (outcome, metric) = (check.outcome.word(), &check.metric);
+        let reason = if check.reason.is_empty() { "" } else { ": " };
+        output.line(&format!("{outcome}: {metric} {limit}: {value}{reason}{}", check.reason))?;
+    }
+    Ok(Status::from(worst(&checks)))
 }
 
 fn text(measurements: &[Measurement]) -> Vec<Vec<String>> {
