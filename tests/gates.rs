@@ -1,5 +1,6 @@
 //! Gates as their users see them: what fails, what passes, what cannot be told.
 //! Every failure has a twin that differs in one thing and passes.
+#![allow(clippy::print_stdout, reason = "`--nocapture` shows what was measured")]
 #![allow(clippy::unwrap_used, reason = "an answer that cannot be read must fail its test")]
 
 use scenes::{LayerName, Layers};
@@ -95,6 +96,42 @@ fn a_changed_parameter_fails_and_an_unchanged_method_passes() {
     let xml = fs::read_to_string(junit).unwrap();
     assert!(xml.contains("<failure") && xml.contains("classname=\"ball/blended\""), "{xml}");
     assert!(xml.contains("classname=\"ball/one-interface\""), "{xml}");
+}
+
+/// The change is measured first, without the gate: by how much relMSE grows when
+/// `a` goes from 0.33 to 0.35. The gate sees the same growth and fails for it.
+#[test]
+fn a_change_measured_elsewhere_is_the_change_that_the_gate_sees() {
+    let gate = Gate::new("");
+    let image = ["--resolution", "32", "--positions", "2"];
+    let render = |command: &[&str], name: &str| {
+        let path = gate.path(name);
+        let ran = snell(&[command, &image, &["--out", &path]].concat());
+        assert_eq!(ran.status, Some(0), "{}", ran.message);
+        path
+    };
+    let exact = render(&["reference", "ball"], "exact.exr");
+    let relmse = |a: &str| {
+        let a = format!("a={a}");
+        let path = render(&["realtime", "ball", "--method", "blended", "--param", &a], "it.exr");
+        let measured = rows(&snell(&["compare", &exact, &path, "--json"]));
+        let row = measured.iter().find(|row| row["metric"] == "relmse_e1e-2").unwrap();
+        row["value"].as_f64().unwrap()
+    };
+    let (before, after) = (relmse("0.33"), relmse("0.35"));
+    let growth = after / before - 1.0;
+    println!("relMSE {before:.5} -> {after:.5}: {:.2} %", 100.0 * growth);
+    assert!(growth > 0.02, "more than the margin: {growth}");
+
+    let checked = gate.check(&["--head-param", "blended.a=0.35"]);
+    assert_eq!(checked.status, Some(1), "{}", checked.answer);
+    let of_blended =
+        |row: &&Value| row["cell"] == "ball/blended" && row["metric"] == "relmse_e1e-2_frozen";
+    let rows = rows(&checked);
+    let row = rows.iter().find(of_blended).unwrap();
+    let seen = row["difference"].as_f64().unwrap() / row["base"].as_f64().unwrap();
+    assert!((seen - growth).abs() < 1e-3, "{seen} is not {growth}");
+    assert_eq!(row["outcome"], "fail", "{row}");
 }
 
 /// What is no longer the baseline's own thing is told, not passed over.

@@ -66,7 +66,12 @@ pub fn make(gate: &SceneGate, cell: &SceneCell, store: &Store) -> Result<KeptTru
     };
     Ok(KeptTruth {
         id: made.id.to_string(),
-        exposures: pinned.or_else(|| Exposures::of(&mean)),
+        // A black image: any exposures will do.
+        exposures: pinned.or_else(|| Exposures::of(&mean)).or(Some(Exposures {
+            start: 0.0,
+            stop: 1.0,
+            count: 2,
+        })),
         mean: half(mean)?,
         standard_error: standard_error.map(half).transpose()?,
         frozen: frozen.map(half).transpose()?,
