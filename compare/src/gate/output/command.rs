@@ -13,7 +13,8 @@ fn arguments(checked: &Checked, cells: &[&str]) -> String {
 /// The command that judges these cells again.
 #[must_use]
 pub fn reproduce(checked: &Checked, cells: &[&str]) -> String {
-    format!("snell check {}", arguments(checked, cells))
+    let more: Vec<String> = checked.again.iter().map(|word| format!(" {}", quoted(word))).collect();
+    format!("snell check {}{}", arguments(checked, cells), more.concat())
 }
 
 /// The command that takes these cells as they are now for the baseline.

@@ -21,6 +21,8 @@ pub struct Checked {
     pub gate: PathBuf,
     /// True for a list of pairs.
     pub of_pairs: bool,
+    /// Arguments beside the gate and the cells that make the same check again.
+    pub again: Vec<String>,
     /// Class of the adapter; none for files.
     pub adapter: Option<AdapterClass>,
     /// Its name and driver.

@@ -29,6 +29,7 @@ pub fn check_pairs(gate: &PairGate, only: &[String]) -> Result<Checked, Error> {
     let baseline = gate.baseline.exists().then(|| Baseline::read(&gate.baseline)).transpose()?;
     let mut checked = Checked {
         gate: gate.path.clone(),
+        again: Vec::new(),
         of_pairs: true,
         adapter: None,
         device: "files".to_owned(),

@@ -24,6 +24,18 @@ pub struct SceneOptions {
     pub instead: BTreeMap<String, BTreeMap<String, String>>,
 }
 
+impl SceneOptions {
+    /// The arguments that say the same.
+    fn again(&self) -> Vec<String> {
+        let of = |(method, list): (&String, &BTreeMap<String, String>)| {
+            let one = |(name, value): (&String, &String)| format!("{method}.{name}={value}");
+            list.iter().map(one).collect::<Vec<_>>()
+        };
+        let written = self.instead.iter().flat_map(of);
+        written.flat_map(|value| ["--head-param".to_owned(), value]).collect()
+    }
+}
+
 /// Renders every cell and holds it to the baseline.
 ///
 /// # Errors
@@ -45,6 +57,7 @@ pub fn check_scenes(
     let class = AdapterClass::of(gpu.info());
     let mut checked = Checked {
         gate: gate.path.clone(),
+        again: options.again(),
         of_pairs: false,
         adapter: Some(class),
         device: gpu.info().name.clone(),
