@@ -3,7 +3,7 @@
 use crate::Error;
 use crate::gate::file::scenes::{SceneCell, SceneGate};
 use crate::study::cache::Id;
-use realtime::{Filter, Gpu, Request};
+use realtime::{Filter, Gpu, Keep, Request};
 use scenes::{LayerName, View};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -63,7 +63,7 @@ pub fn render(
         parameters,
         filter: Filter::Manual,
         timing: None,
-        elide: true,
+        keep: Keep::Needed,
     };
     let rendering = realtime::render(gpu, &cell.scene, &request)?;
     let radiance = rendering.layers.get(&LayerName::Radiance);
