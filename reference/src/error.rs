@@ -6,6 +6,9 @@ pub enum Error {
     /// A body without an inside.
     #[error(transparent)]
     NotABody(#[from] scenes::topology::NotABody),
+    /// A wavelength at which a medium has no index.
+    #[error(transparent)]
+    Dispersion(#[from] scenes::medium::DispersionError),
     /// More triangles than a tree can address.
     #[error("the scene has {count} triangles; the reference can hold {most}")]
     TooManyTriangles {

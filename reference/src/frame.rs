@@ -8,6 +8,7 @@ use crate::error::Error;
 use crate::image::layers::RequestedLayers;
 use crate::image::run::{ImageRun, Watch};
 use crate::request::{Estimator, Request};
+use crate::transport::spectrum;
 use crate::transport::tracer::Tracer;
 use crate::transport::variant::Variant;
 use crate::world::World;
@@ -37,6 +38,7 @@ pub fn render_watched(
     watch: Watch<'_>,
 ) -> Result<Rendering, Error> {
     request.check()?;
+    spectrum::check(scene, request.spectrum)?;
     let asked = RequestedLayers::new(scene, request)?;
     let started = Instant::now();
     let world = World::new(scene, request.view.frame, request.level)?;

@@ -114,3 +114,41 @@ fn too_few_or_too_many_wavelengths_are_refused() {
         assert!(matches!(error, Error::Range { name: "wavelengths", .. }), "{error}");
     }
 }
+
+/// An index below 1 for one colour (anomalous dispersion) is physics like any
+/// other: red light is totally reflected from outside, and none is lost or made.
+#[test]
+fn a_colour_below_vacuum_loses_and_gains_nothing() {
+    let (bent, d_um) = (0.9, 0.587_561_8_f64);
+    let mut scene = furnace(vec![object(Shape::Sphere { radius_m: 1.0 }, 1, Normals::Flat)], 1.2);
+    scene.media[1] = Medium {
+        dispersion: Dispersion::Cauchy { a: 1.2 - bent / d_um.powi(2), b_um2: bent },
+        ..Medium::plain("anomalous", Eta::try_from(1.2).unwrap())
+    };
+    let red = scene.media[1].eta_at(0.656_272_5);
+    assert!((0.6..0.8).contains(&red), "{red}");
+    let [radiance, truncated] = image(&scene, Spectrum::Channels);
+    for (pixel, lost) in radiance.chunks_exact(3).zip(&truncated) {
+        let sound = pixel.iter().all(|v| (1.0 - lost - 1e-9..=1.0 + 1e-9).contains(v));
+        assert!(sound, "{pixel:?} where {lost} was dropped");
+    }
+}
+
+/// A law may have an index for red, green and blue, and none at other
+/// wavelengths that are traced.
+#[test]
+fn every_wavelength_that_is_traced_has_an_index() {
+    let ask = |b_um2: f64, spectrum| {
+        let request = Request { spectrum, ..Request::new(view(8, 1, &[]), Level::R1) };
+        (render(&ball(dispersive(b_um2)), &request).map(|_| ()), request)
+    };
+    let many = Spectrum::Wavelengths(31);
+    assert_eq!(ask(-0.45, Spectrum::Channels).0, Ok(()));
+    assert_eq!(ask(-0.2, many).0, Ok(()));
+    let (Err(Error::Dispersion(error)), request) = ask(-0.45, many) else { panic!() };
+    assert!((390.0..400.0).contains(&error.nm) && error.eta < 0.1, "{error}");
+    let plan = reference::plan(&ball(dispersive(-0.45)), &request).map(|_| ());
+    assert_eq!(plan, Err(Error::Dispersion(error)));
+    // Scenes that no file was read for are checked as well.
+    assert!(matches!(ask(-1.2, Spectrum::Channels).0, Err(Error::Dispersion(_))));
+}

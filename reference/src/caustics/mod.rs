@@ -19,8 +19,9 @@ mod photon;
 use crate::error::Error;
 use crate::receiver::face::Face;
 use crate::receiver::map::{Balance, CausticMap};
-use crate::request::{Keep, Level, Request};
+use crate::request::{Keep, Level, Request, Spectrum};
 use crate::sampling::sobol::Points;
+use crate::transport::spectrum;
 use crate::transport::tracer::Tracer;
 use crate::transport::variant::{Specialised, Variant};
 use crate::world::World;
@@ -91,6 +92,7 @@ fn check(scene: &Scene, request: &CausticsRequest) -> Result<Face, Error> {
         let value = request.photons.to_string();
         return Err(range("photons", value, "at most 4294967295 per batch"));
     }
+    spectrum::check(scene, Spectrum::Channels)?;
     if scene.lights.is_empty() {
         return Err(Error::NoLights);
     }

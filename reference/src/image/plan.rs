@@ -5,6 +5,7 @@ use crate::error::Error;
 use crate::request::{
     EnvironmentLookup, Estimator, Fresnel, Level, Request, Restriction, Spectrum,
 };
+use crate::transport::spectrum;
 use crate::transport::variant::Variant;
 use crate::world::World;
 use crate::world::scratch::Counters;
@@ -148,6 +149,7 @@ fn restricted(plan: &mut Plan, request: &Request) {
 /// As [`crate::render`].
 pub fn plan(scene: &Scene, request: &Request) -> Result<Plan, Error> {
     request.check()?;
+    spectrum::check(scene, request.spectrum)?;
     let layers = RequestedLayers::new(scene, request)?;
     let world = World::new(scene, request.view.frame, request.level)?;
     let variant = Variant::new(scene, &world, request.keep, layers.needs_lengths());

@@ -6,7 +6,7 @@ use crate::transport::media_optics::MediaOptics;
 use crate::world::World;
 use glam::{DMat3, DVec3};
 use scenes::Scene;
-use scenes::medium::RGB_WAVELENGTH_UM;
+use scenes::medium::{DispersionError, RGB_WAVELENGTH_UM};
 
 /// Light of one wavelength.
 #[derive(Clone, Debug)]
@@ -37,19 +37,7 @@ impl Wavelength {
             optics: MediaOptics::new(scene, world, wavelength_um, restriction.fresnel),
             share,
         };
-        if !scene.media.iter().any(scenes::Medium::is_dispersive) {
-            return vec![one(D_LINE_UM, DMat3::IDENTITY)];
-        }
-        match spectrum {
-            Spectrum::Channels => {
-                let lines = RGB_WAVELENGTH_UM.into_iter().zip(DMat3::IDENTITY.to_cols_array_2d());
-                let share = |axis| DMat3::from_diagonal(DVec3::from_array(axis));
-                lines.map(|(line, axis)| one(line, share(axis))).collect()
-            }
-            Spectrum::Wavelengths(count) => {
-                shares(count).into_iter().map(|(line, share)| one(line, share)).collect()
-            }
-        }
+        lines(scene, spectrum).into_iter().map(|(line, share)| one(line, share)).collect()
     }
 
     /// Adds what this one brings.
@@ -58,6 +46,30 @@ impl Wavelength {
         let rows = self.share.transpose().to_cols_array_2d().map(DVec3::from_array);
         let reach = DVec3::from_array(rows.map(|row| row.abs().element_sum()));
         total.truncated += reach * truncated;
+    }
+}
+
+/// That every medium has an index at every wavelength that would be traced.
+pub(crate) fn check(scene: &Scene, spectrum: Spectrum) -> Result<(), DispersionError> {
+    let lines = lines(scene, spectrum);
+    scene.media.iter().try_for_each(|medium| {
+        medium.check_at(RGB_WAVELENGTH_UM)?;
+        medium.check_at(lines.iter().map(|(line, _)| *line))
+    })
+}
+
+/// Wavelengths to trace, micrometres, and their shares.
+fn lines(scene: &Scene, spectrum: Spectrum) -> Vec<(f64, DMat3)> {
+    if !scene.media.iter().any(scenes::Medium::is_dispersive) {
+        return vec![(D_LINE_UM, DMat3::IDENTITY)];
+    }
+    match spectrum {
+        Spectrum::Channels => {
+            let share = |axis| DMat3::from_diagonal(DVec3::from_array(axis));
+            let axes = DMat3::IDENTITY.to_cols_array_2d();
+            RGB_WAVELENGTH_UM.into_iter().zip(axes.map(share)).collect()
+        }
+        Spectrum::Wavelengths(count) => shares(count),
     }
 }
 

@@ -175,6 +175,42 @@ fn doubtful_values_are_warned_about() {
     assert_eq!(decided.warnings, Vec::<String>::new());
 }
 
+/// The figure in the warning is the one that decides.
+#[test]
+fn an_index_is_unusual_above_what_the_warning_says() {
+    let warned = |eta: &str| read(&SCENE.replace("1.5", eta)).warnings.join("\n");
+    assert_eq!([warned("4.05"), warned("4.1")], [""; 2]);
+    assert!(warned("4.11").contains("index 4.11: no transparent medium above 4.1 "));
+}
+
+/// Whatever form a law has, its index is checked for red, green and blue.
+#[test]
+fn a_law_that_gives_no_index_for_a_colour_is_an_error() {
+    let law = |law: &str| SCENE.replace("eta = 1.5", law);
+    for sound in [
+        "eta = 1.5\ndispersion = 1.0",
+        // Red below 1: anomalous, and an index.
+        "eta = 1.2\ndispersion = 120.0",
+        "cauchy = { a = 2.6, b_um2 = -0.3 }",
+    ] {
+        read(&law(sound));
+    }
+    let refuses = |to: &str, place: &str, words: &[&str]| {
+        refuses("eta = 1.5", to, place, words);
+    };
+    let number = "eta = 1.5\ndispersion = 300.0";
+    refuses(
+        number,
+        "9:1",
+        &["\"glass\"", "-0.757", "656.3 nm", "0.1", "write 0.25 to 1 for glass"],
+    );
+    refuses("material = \"diamond\"\ndispersion = 120.0", "9:1", &["656.3 nm"]);
+    refuses("cauchy = { a = 0.0, b_um2 = -0.4 }", "9:1", &["the law gives", "below 1"]);
+    refuses("cauchy = { a = 3.03, b_um2 = -0.7 }", "9:1", &["486.1 nm", "cauchy = {"]);
+    let pole = "sellmeier = { b = [1.0, 0.0, 0.0], c_um2 = [0.3, 0.0, 0.0] }";
+    refuses(pole, "9:1", &["486.1 nm", "0.0000"]);
+}
+
 #[test]
 fn the_surroundings_are_medium_zero() {
     let scene = read(

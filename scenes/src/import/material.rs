@@ -1,6 +1,7 @@
 //! Materials of a glTF file as surfaces and media.
 
 use super::{ImportError, Reader};
+use crate::medium::RGB_WAVELENGTH_UM;
 use crate::scene::Paint;
 use crate::{Dispersion, Eta, Medium, MediumId, Surface};
 use glam::DVec3;
@@ -31,6 +32,7 @@ impl Reader<'_> {
         let known = self.scene.media.iter().position(|other| *other == medium);
         let index = known.unwrap_or(self.scene.media.len());
         if known.is_none() {
+            self.scene.warnings.extend(medium.doubt());
             self.scene.media.push(medium);
         }
         Ok(Surface::Dielectric { medium: MediumId(index as u16), priority: 0 })
@@ -167,6 +169,9 @@ impl Reader<'_> {
         if let Some(dispersion) = dispersion.filter(|value| *value > 0.0) {
             medium.dispersion = Dispersion::Gltf { dispersion };
         }
+        medium
+            .check_at(RGB_WAVELENGTH_UM)
+            .map_err(|error| self.wrong(&name, &error.to_string()))?;
         Ok(medium)
     }
 }

@@ -91,6 +91,8 @@ fn what_cannot_be_rendered_is_refused_with_a_way_out() {
     assert!(refused(extension("KHR_materials_volume", thin)).contains("thin wall"));
     let error = refused(extension("KHR_materials_ior", json!({ "ior": 0.7 })));
     assert!(error.contains("below 1"), "{error}");
+    let error = refused(extension("KHR_materials_dispersion", json!({ "dispersion": 300.0 })));
+    assert!(error.contains("656.3 nm") && error.contains("write 0.25 to 1"), "{error}");
     let error = refused(|root| {
         root["extensionsUsed"].as_array_mut().unwrap().push(json!("KHR_materials_sheen"));
     });

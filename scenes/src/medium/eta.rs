@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 
 /// Absolute refractive index of ONE medium (dimensionless, vacuum = 1).
 ///
-/// Accepted: 1 to 1e6. Real transparent media lie below 4.1; larger values are
-/// allowed because limits are worth testing, and `is_unusual` says so.
+/// Accepted: 1 to 1e6. Larger values than [`Eta::LARGEST_KNOWN`] are allowed
+/// because limits are worth testing, and `is_unusual` says so.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd, Deserialize, Serialize)]
 #[serde(try_from = "f64", into = "f64")]
 pub struct Eta(f64);
@@ -34,10 +34,13 @@ impl Eta {
         self.0
     }
 
-    /// True above 4, where no transparent medium is known at visible wavelengths.
+    /// Germanium's at 2 µm: no transparent medium is known above it.
+    pub const LARGEST_KNOWN: f64 = 4.1;
+
+    /// True above [`Eta::LARGEST_KNOWN`].
     #[must_use]
     pub fn is_unusual(self) -> bool {
-        self.0 > 4.0
+        self.0 > Self::LARGEST_KNOWN
     }
 }
 

@@ -56,6 +56,30 @@ pub enum Dispersion {
     },
 }
 
+/// Indices that light of some colour may meet in a dispersive medium. Below 1
+/// (anomalous dispersion) light is totally reflected from outside; at 0 and below
+/// a law has left the range of wavelengths for which it was fitted.
+pub const ETA_OF_A_COLOUR: std::ops::RangeInclusive<f64> = 0.1..=1e6;
+
+/// A law of dispersion that gives no index at a wavelength that is traced.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "medium \"{medium}\": its law of dispersion gives the index {eta:.4} at {nm:.1} nm, and an index \
+     lies from {least} to {most:e}\n{advice}",
+    least = ETA_OF_A_COLOUR.start(),
+    most = ETA_OF_A_COLOUR.end()
+)]
+pub struct DispersionError {
+    /// Name of the medium.
+    pub medium: String,
+    /// Vacuum wavelength, nanometres.
+    pub nm: f64,
+    /// What the law gives there.
+    pub eta: f64,
+    /// What to write instead.
+    pub advice: &'static str,
+}
+
 /// Wavelengths that stand for R, G, B: the C, d and F lines, in micrometres.
 pub const RGB_WAVELENGTH_UM: [f64; 3] = [0.656_272_5, 0.587_561_8, 0.486_132_7];
 
@@ -95,6 +119,42 @@ impl Medium {
                 self.eta.get() + b_um2 * (1.0 / l2 - d)
             }
         }
+    }
+
+    /// That the law gives an index at each of these vacuum wavelengths
+    /// (micrometres).
+    ///
+    /// # Errors
+    /// At the first where it does not.
+    pub fn check_at(
+        &self,
+        wavelengths_um: impl IntoIterator<Item = f64>,
+    ) -> Result<(), DispersionError> {
+        let mut all = wavelengths_um.into_iter().map(|um| (um, self.eta_at(um)));
+        // NaN lies in no range.
+        let Some((um, eta)) = all.find(|(_, eta)| !ETA_OF_A_COLOUR.contains(eta)) else {
+            return Ok(());
+        };
+        let advice = match self.dispersion {
+            Dispersion::Gltf { .. } => {
+                "dispersion is 20 / Abbe number: write 0.25 to 1 for glass, such as 0.31 for crown"
+            }
+            _ => {
+                "write coefficients for micrometres, such as cauchy = { a = 1.5046, b_um2 = 0.0042 }"
+            }
+        };
+        Err(DispersionError { medium: self.name.clone(), nm: 1e3 * um, eta, advice })
+    }
+
+    /// What people should know of its index.
+    #[must_use]
+    pub fn doubt(&self) -> Option<String> {
+        self.eta.is_unusual().then(|| {
+            let (name, eta, most) = (&self.name, self.eta.get(), Eta::LARGEST_KNOWN);
+            format!(
+                "medium \"{name}\" has index {eta}: no transparent medium above {most} is known"
+            )
+        })
     }
 
     /// True when the three colour channels bend differently.

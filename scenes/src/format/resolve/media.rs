@@ -2,7 +2,7 @@
 
 use super::super::choice::NameOr;
 use super::super::document::{Document, MediumText};
-use super::super::error::At;
+use super::super::error::{At, Problem};
 use super::{only_one, span_of};
 use crate::medium::RGB_WAVELENGTH_UM;
 use crate::{Dispersion, Eta, Medium, MediumId, materials};
@@ -106,7 +106,7 @@ impl Media {
         let mut medium = Medium { absorption_per_m, ..Medium::plain(name, Eta::VACUUM) };
         if let Some(law) = law(text) {
             medium.dispersion = law;
-            medium.eta = checked_law(&medium, whole)?;
+            medium.eta = eta_of_law(&medium, whole.clone())?;
         }
         if let Some(eta) = &text.eta {
             medium.eta = *eta.get_ref();
@@ -126,6 +126,9 @@ impl Media {
                 medium.dispersion = Dispersion::Gltf { dispersion: dispersion.get_ref().0 };
             }
         }
+        medium
+            .check_at(RGB_WAVELENGTH_UM)
+            .map_err(|error| At { span: whole, problem: Problem::Value(error.to_string()) })?;
         Ok(medium)
     }
 
@@ -147,13 +150,7 @@ impl Media {
     /// The media that are used, surroundings first.
     pub(super) fn finish(self, warnings: &mut Vec<String>) -> Vec<Medium> {
         warnings.extend(self.doubts);
-        for medium in self.used.iter().filter(|medium| medium.eta.is_unusual()) {
-            warnings.push(format!(
-                "medium \"{}\" has index {}: no transparent medium above 4.1 is known",
-                medium.name,
-                medium.eta.get()
-            ));
-        }
+        warnings.extend(self.used.iter().filter_map(Medium::doubt));
         for name in self.declared.keys().filter(|name| *name != VACUUM) {
             if !self.used.iter().any(|medium| medium.name == *name) {
                 warnings.push(format!("medium \"{name}\" is not used"));
@@ -174,15 +171,14 @@ fn law(text: &MediumText) -> Option<Dispersion> {
     })
 }
 
-/// The law's index at the d line, if it is one for all three colours. Two may
-/// lie below 1: anomalous media exist, and such colours are totally reflected.
-fn checked_law(medium: &Medium, whole: Range<usize>) -> Result<Eta, At> {
-    let indices = RGB_WAVELENGTH_UM.map(|wavelength| medium.eta_at(wavelength));
-    let sound = indices.iter().all(|index| index.is_finite() && (0.1..=1e6).contains(index));
-    Eta::try_from(indices[1]).ok().filter(|_| sound).ok_or_else(|| {
+/// The law's index at the d line, which is an index like any other. Those of red
+/// and blue may lie below 1: anomalous media exist.
+fn eta_of_law(medium: &Medium, whole: Range<usize>) -> Result<Eta, At> {
+    let eta = medium.eta_at(RGB_WAVELENGTH_UM[1]);
+    Eta::try_from(eta).map_err(|error| {
         At::meaning(
             whole,
-            format!("the law gives the indices {indices:?} for red, green and blue"),
+            format!("the law gives, at the d line: {error}"),
             "write coefficients for micrometres, such as cauchy = { a = 1.5046, b_um2 = 0.0042 }",
         )
     })
