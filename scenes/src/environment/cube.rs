@@ -5,6 +5,7 @@
 //! size S is stored as (S + 2)² texels; the ring around it repeats the
 //! neighbouring faces' texels.
 
+use super::texel::{Chart, Texel, direction_of, face_of};
 use glam::{DVec2, DVec3};
 
 /// Six bordered faces of linear radiance.
@@ -19,8 +20,14 @@ pub struct Cube {
 impl Cube {
     /// Fills a cube from a function of direction, evaluated at texel centres.
     pub fn from_fn(size_px: u32, radiance: impl Fn(DVec3) -> DVec3 + Sync) -> Self {
+        Self::from_texels(size_px, |texel| radiance(texel.direction(0.5, 0.5)))
+    }
+
+    /// Fills a cube with what each texel shows.
+    pub(super) fn from_texels(size_px: u32, shows: impl Fn(&Texel) -> DVec3 + Sync) -> Self {
         use rayon::prelude::*;
         let stride = size_px as usize + 2;
+        let size = DVec2::splat(1.0 / f64::from(size_px));
         let mut cube = Self { size_px, texels: vec![[0.0; 4]; 6 * stride * stride] };
         let rows = cube.texels.par_chunks_mut(stride).enumerate();
         rows.for_each(|(row, texels)| {
@@ -28,32 +35,14 @@ impl Cube {
             for (x, texel) in texels.iter_mut().enumerate() {
                 let inside = |i: usize| (1..=size_px as usize).contains(&i);
                 if inside(x) && inside(y) {
-                    let at = DVec2::new(x as f64 - 0.5, y as f64 - 0.5) / f64::from(size_px);
-                    *texel = radiance(direction_of(face, at)).as_vec3().extend(1.0).to_array();
+                    let low = DVec2::new(x as f64 - 1.0, y as f64 - 1.0) * size;
+                    let shown = shows(&Texel { chart: Chart::Face(face), low, size });
+                    *texel = shown.as_vec3().extend(1.0).to_array();
                 }
             }
         });
         cube.fill_borders();
         cube
-    }
-
-    /// Fills a cube with means over 2 x 2 places of each texel, or with the
-    /// value at the centre where the function is smooth.
-    pub fn averaged(
-        size_px: u32,
-        radiance: impl Fn(DVec3) -> DVec3 + Sync,
-        is_smooth: impl Fn(DVec3) -> bool + Sync,
-    ) -> Self {
-        let quarter = 0.25 / f64::from(size_px);
-        Self::from_fn(size_px, |centre| {
-            if is_smooth(centre) {
-                return radiance(centre);
-            }
-            let (face, at) = face_of(centre);
-            let places = [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)];
-            let place = |(x, y)| at + quarter * DVec2::new(x, y);
-            0.25 * places.map(|p| radiance(direction_of(face, place(p)))).iter().sum::<DVec3>()
-        })
     }
 
     /// Radiance along a unit direction: bilinear in the face the direction
@@ -111,39 +100,6 @@ impl Cube {
             }
         }
     }
-}
-
-/// Face a direction points at and the position on it in [0, 1]², y downwards.
-#[must_use]
-pub fn face_of(direction: DVec3) -> (usize, DVec2) {
-    let DVec3 { x, y, z } = direction;
-    let [ax, ay, az] = direction.abs().to_array();
-    let (face, u, v, major) = if ax >= ay && ax >= az {
-        if x >= 0.0 { (0, -z, -y, ax) } else { (1, z, -y, ax) }
-    } else if ay >= az {
-        if y >= 0.0 { (2, x, z, ay) } else { (3, x, -z, ay) }
-    } else if z >= 0.0 {
-        (4, x, -y, az)
-    } else {
-        (5, -x, -y, az)
-    };
-    (face, 0.5 * (DVec2::new(u, v) / major + 1.0))
-}
-
-/// Unit direction through a position of a face; positions outside [0, 1]² give
-/// directions beyond the face's edge.
-#[must_use]
-pub fn direction_of(face: usize, at: DVec2) -> DVec3 {
-    let [u, v] = (2.0 * at - 1.0).to_array();
-    let direction = match face {
-        0 => DVec3::new(1.0, -v, -u),
-        1 => DVec3::new(-1.0, -v, u),
-        2 => DVec3::new(u, 1.0, v),
-        3 => DVec3::new(u, -1.0, -v),
-        4 => DVec3::new(u, -v, 1.0),
-        _ => DVec3::new(-u, -v, -1.0),
-    };
-    direction.normalize()
 }
 
 #[cfg(test)]

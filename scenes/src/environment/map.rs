@@ -1,8 +1,10 @@
 //! Making the two forms of a directional image: the lat-long original and the
 //! cube that both renderers look up.
 
+use super::area_mean::Meridians;
+use super::texel::{Chart, Texel};
 use super::{Cube, LatLong, Map, Sky};
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 /// Edge of the cube faces of a procedural sky, texels.
@@ -36,31 +38,15 @@ impl LatLong {
         repaired
     }
 
-    /// Fills an image from a function of direction: mean of 2 x 2 places per
-    /// texel, or the value at the centre where the function is smooth.
-    fn from_fn(
-        size_px: [u32; 2],
-        radiance: impl Fn(DVec3) -> DVec3 + Sync,
-        is_smooth: impl Fn(DVec3) -> bool + Sync,
-    ) -> Self {
+    /// Fills an image with what each texel shows.
+    fn from_texels(size_px: [u32; 2], shows: impl Fn(&Texel) -> DVec3 + Sync) -> Self {
         let [width, height] = size_px.map(|n| n as usize);
+        let size = DVec2::new(1.0 / width as f64, 1.0 / height as f64);
         let mut texels = vec![[0.0; 3]; width * height];
         texels.par_chunks_mut(width).enumerate().for_each(|(y, row)| {
             for (x, texel) in row.iter_mut().enumerate() {
-                let at = |dx: f64, dy: f64| {
-                    let phi = (x as f64 + dx) / width as f64 * std::f64::consts::TAU;
-                    let theta = (y as f64 + dy) / height as f64 * std::f64::consts::PI;
-                    let ((sin_phi, cos_phi), (sin, cos)) = (phi.sin_cos(), theta.sin_cos());
-                    DVec3::new(sin * sin_phi, cos, -sin * cos_phi)
-                };
-                let centre = at(0.5, 0.5);
-                let mean = if is_smooth(centre) {
-                    radiance(centre)
-                } else {
-                    let places = [(0.25, 0.25), (0.75, 0.25), (0.25, 0.75), (0.75, 0.75)];
-                    0.25 * places.map(|(dx, dy)| radiance(at(dx, dy))).iter().sum::<DVec3>()
-                };
-                *texel = mean.as_vec3().to_array();
+                let low = DVec2::new(x as f64, y as f64) * size;
+                *texel = shows(&Texel { chart: Chart::LatLong, low, size }).as_vec3().to_array();
             }
         });
         Self { size_px, texels }
@@ -81,19 +67,39 @@ impl Map {
     ) -> Self {
         let repaired_texels = lat_long.repair(repair);
         let size = cube_size_px.unwrap_or_else(|| default_cube_size(lat_long.size_px[0]));
-        let cube = Cube::averaged(size, |d| lat_long.radiance(d, rotation_deg), |_| false);
+        let meridians = Meridians::new(&lat_long, rotation_deg);
+        let cube = Cube::from_texels(size, |texel| meridians.mean_over(texel));
         Self { name: name.to_owned(), lat_long, cube, rotation_deg, repaired_texels }
+    }
+
+    /// What people must know of it.
+    #[must_use]
+    pub fn warnings(&self) -> Vec<String> {
+        let (name, [width, height], repaired) =
+            (&self.name, self.lat_long.size_px, self.repaired_texels);
+        let stretched = (width != 2 * height).then(|| {
+            format!(
+                "{name} is {width} x {height} pixels; a lat-long map is twice as wide as high, and \
+                 this one is stretched to fit"
+            )
+        });
+        let bad = (repaired > 0).then(|| {
+            format!(
+                "{name}: {repaired} texels were NaN, infinite or negative and have been repaired"
+            )
+        });
+        stretched.into_iter().chain(bad).collect()
     }
 
     /// A procedural sky as an environment.
     #[must_use]
     pub fn from_sky(sky: &Sky, rotation_deg: f64, cube_size_px: Option<u32>) -> Self {
-        let turned = sky.turned(rotation_deg);
+        let (unturned, turned) = (sky.turned(0.0), sky.turned(rotation_deg));
         let size = cube_size_px.unwrap_or(SKY_CUBE_PX);
         Self {
             name: "sky".to_owned(),
-            lat_long: LatLong::from_fn([2 * size, size], |d| sky.radiance(d), |d| sky.is_smooth(d)),
-            cube: Cube::averaged(size, |d| turned.radiance(d), |d| turned.is_smooth(d)),
+            lat_long: LatLong::from_texels([2 * size, size], |texel| unturned.mean_over(texel)),
+            cube: Cube::from_texels(size, |texel| turned.mean_over(texel)),
             rotation_deg,
             repaired_texels: 0,
         }
@@ -111,7 +117,7 @@ mod tests {
 
     /// The image whose colours are its directions: 0.5 + 0.5 d.
     fn axes() -> LatLong {
-        LatLong::from_fn([512, 256], |d| DVec3::splat(0.5) + 0.5 * d, |_| false)
+        LatLong::from_texels([512, 256], |texel| 0.5 + 0.5 * texel.direction(0.5, 0.5))
     }
 
     #[test]

@@ -4,13 +4,22 @@
 //! renderers see the same decoded f32 texels of one [`Cube`]. The lat-long
 //! original stays available for agreement with other renderers.
 
+mod area_mean;
+#[cfg(test)]
+mod area_mean_tests;
 mod cube;
 mod map;
 mod sky;
+mod sun;
+#[cfg(test)]
+mod sun_tests;
+mod texel;
 
-pub use cube::{Cube, direction_of, face_of};
+pub use cube::Cube;
 pub use map::Repair;
-pub use sky::{Checker, Graticule, Sky, Sun, TurnedSky};
+pub use sky::{Checker, Graticule, Sky};
+pub use sun::Sun;
+pub use texel::{direction_of, face_of};
 
 use glam::DVec3;
 use std::sync::Arc;

@@ -1,6 +1,8 @@
 //! A procedural sky: a gradient, a ground, a sun, and lines that make bending
 //! visible. No file is needed, and every value is known exactly.
 
+use super::sun::{Sun, smooth_step};
+use super::texel::Texel;
 use glam::{DQuat, DVec3};
 
 /// Light from every direction, as a formula.
@@ -18,17 +20,6 @@ pub struct Sky {
     pub checker: Option<Checker>,
     /// Lines of equal azimuth and elevation.
     pub graticule: Option<Graticule>,
-}
-
-/// A disc of constant radiance with an edge as wide as a tenth of its radius.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sun {
-    /// Unit vector towards the sun.
-    pub direction: DVec3,
-    /// Angular radius, degrees.
-    pub radius_deg: f64,
-    /// Linear radiance of the disc, in place of the sky's.
-    pub radiance: DVec3,
 }
 
 /// Squares on a plane below the eye; they fade towards the horizon.
@@ -55,24 +46,32 @@ impl Sky {
     /// Linear radiance seen along a unit direction.
     #[must_use]
     pub fn radiance(&self, direction: DVec3) -> DVec3 {
-        let mut radiance = self.background(direction);
-        if let Some(lines) = self.graticule {
-            radiance = radiance.lerp(lines.colour, lines.coverage(direction));
-        }
+        let radiance = self.without_sun(direction);
         match self.sun {
             Some(sun) => radiance.lerp(sun.radiance, sun.coverage(direction)),
             None => radiance,
         }
     }
 
-    /// True where nothing changes within a few texels: away from the ground,
-    /// the lines and the sun's edge.
-    #[must_use]
-    pub fn is_smooth(&self, direction: DVec3) -> bool {
-        let near_sun = self.sun.is_some_and(|sun| {
-            direction.dot(sun.direction) > (2.0 + 1.2 * sun.radius_deg).to_radians().cos()
-        });
-        direction.y > 0.05 && self.graticule.is_none() && !near_sun
+    /// The sky turned about +Y: what was at -Z moves towards +X.
+    pub(super) fn turned(&self, degrees: f64) -> TurnedSky<'_> {
+        let back = DQuat::from_rotation_y(degrees.to_radians());
+        let turn = |sun: Sun| Sun { direction: back.inverse() * sun.direction, ..sun };
+        TurnedSky { sky: self, sun: self.sun.map(turn), back }
+    }
+
+    /// True where nothing but the sun changes within a few texels: away from
+    /// the ground and the lines.
+    fn is_smooth(&self, direction: DVec3) -> bool {
+        direction.y > 0.05 && self.graticule.is_none()
+    }
+
+    fn without_sun(&self, direction: DVec3) -> DVec3 {
+        let radiance = self.background(direction);
+        match self.graticule {
+            Some(lines) => radiance.lerp(lines.colour, lines.coverage(direction)),
+            None => radiance,
+        }
     }
 
     fn background(&self, direction: DVec3) -> DVec3 {
@@ -86,66 +85,32 @@ impl Sky {
         };
         self.horizon.lerp(ground, smooth_step(0.0, 0.12, -up))
     }
-
-    /// The sky turned about +Y: what was at -Z moves towards +X.
-    #[must_use]
-    pub fn turned(&self, degrees: f64) -> TurnedSky<'_> {
-        TurnedSky { sky: self, back: DQuat::from_rotation_y(degrees.to_radians()) }
-    }
 }
 
 /// A sky in another orientation.
-#[derive(Clone, Copy, Debug)]
-pub struct TurnedSky<'a> {
+pub(super) struct TurnedSky<'a> {
     sky: &'a Sky,
+    /// The sky's own, turned as well.
+    sun: Option<Sun>,
     back: DQuat,
 }
 
 impl TurnedSky<'_> {
-    /// Linear radiance seen along a unit direction.
-    #[must_use]
-    pub fn radiance(&self, direction: DVec3) -> DVec3 {
-        self.sky.radiance(self.back * direction)
-    }
-
-    /// As [`Sky::is_smooth`].
-    #[must_use]
-    pub fn is_smooth(&self, direction: DVec3) -> bool {
-        self.sky.is_smooth(self.back * direction)
-    }
-}
-
-impl Sun {
-    /// Irradiance on a surface that faces the sun: radiance times the integral
-    /// of the disc's coverage.
-    #[must_use]
-    pub fn irradiance(&self) -> DVec3 {
-        let steps = 4096;
-        let outer = (1.05 * self.radius_deg).to_radians();
-        let width = outer / f64::from(steps);
-        let solid_angle: f64 = (0..steps)
-            .map(|i| {
-                let angle = (f64::from(i) + 0.5) * width;
-                let weight = angle.sin() * angle.cos() * width * std::f64::consts::TAU;
-                self.coverage_at(angle) * weight
-            })
-            .sum();
-        self.radiance * solid_angle
-    }
-
-    fn coverage(&self, direction: DVec3) -> f64 {
-        // Most directions are nowhere near: 1 - x²/2 is below cos x.
-        let outer = (1.05 * self.radius_deg).to_radians();
-        if direction.dot(self.direction) < 1.0 - 0.5 * outer * outer - 1e-9 {
-            return 0.0;
+    /// What a texel shows: the sun by its exact share of it, the rest by the
+    /// mean of 2 x 2 places, or the value in the middle where it is smooth.
+    pub(super) fn mean_over(&self, texel: &Texel) -> DVec3 {
+        let at = |x, y| self.back * texel.direction(x, y);
+        let middle = at(0.5, 0.5);
+        let radiance = if self.sky.is_smooth(middle) {
+            self.sky.without_sun(middle)
+        } else {
+            let places = [(0.25, 0.25), (0.75, 0.25), (0.25, 0.75), (0.75, 0.75)];
+            0.25 * places.map(|(x, y)| self.sky.without_sun(at(x, y))).iter().sum::<DVec3>()
+        };
+        match self.sun {
+            Some(sun) => radiance + sun.share_of(texel) * (sun.radiance - radiance),
+            None => radiance,
         }
-        let angle = direction.cross(self.direction).length().atan2(direction.dot(self.direction));
-        self.coverage_at(angle)
-    }
-
-    fn coverage_at(&self, angle: f64) -> f64 {
-        let radius = self.radius_deg.to_radians();
-        1.0 - smooth_step(0.95 * radius, 1.05 * radius, angle)
     }
 }
 
@@ -181,14 +146,8 @@ impl Graticule {
     }
 }
 
-fn smooth_step(low: f64, high: f64, value: f64) -> f64 {
-    let t = ((value - low) / (high - low)).clamp(0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
-}
-
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used, reason = "a failing test may panic")]
     use super::*;
 
     fn sky() -> Sky {
@@ -208,23 +167,5 @@ mod tests {
         assert_eq!(sky.radiance(DVec3::Y), sky.zenith);
         assert_eq!(sky.radiance(DVec3::X), DVec3::splat(500.0));
         assert_eq!(sky.radiance(DVec3::NEG_Z), sky.horizon);
-    }
-
-    /// A small disc of radius r has the solid angle π sin² r, weighted by the
-    /// cosine; the soft edge changes it by less than a per cent.
-    #[test]
-    fn the_suns_irradiance_is_radiance_times_projected_solid_angle() {
-        let sun = sky().sun.unwrap();
-        let sharp = 500.0 * std::f64::consts::PI * 2.0f64.to_radians().sin().powi(2);
-        assert!((sun.irradiance().x / sharp - 1.0).abs() < 0.01);
-    }
-
-    #[test]
-    fn turning_moves_the_north_towards_the_east() {
-        let sky = Sky { checker: None, ..sky() };
-        let turned = sky.turned(90.0);
-        // The sun stood at +X; a quarter turn further it stands at +Z.
-        assert!(turned.radiance(DVec3::Z).x > 499.0);
-        assert!(turned.radiance(DVec3::X).x < 1.0);
     }
 }

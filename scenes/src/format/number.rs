@@ -129,8 +129,8 @@ checked!(
 checked!(
     /// Angular radius of the sun's disc, degrees.
     DiscRadius, Number "Number", f64,
-    |v| (0.05..=45.0).contains(&v),
-    "an angular radius from 0.05 to 45 degrees; write such as 0.27 for the real sun"
+    |v| (0.01..=45.0).contains(&v),
+    "an angular radius from 0.01 to 45 degrees; write such as 0.27 for the real sun"
 );
 checked!(
     /// An angle in degrees, any number of turns that f64 resolves.
