@@ -113,6 +113,9 @@ pub enum Error {
         /// What the driver said.
         what: String,
     },
+    /// A wavelength at which a medium has no index.
+    #[error(transparent)]
+    Dispersion(#[from] scenes::medium::DispersionError),
     /// A transparent body without an inside.
     #[error("{0}")]
     NotABody(scenes::topology::NotABody),

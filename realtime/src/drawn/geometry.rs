@@ -4,6 +4,7 @@ use crate::drawn::drawables::{Drawables, PlacedShape};
 use crate::drawn::uniforms::{Body, Bump, Light, MAX_BODIES, MAX_LIGHTS, Paint};
 use crate::error::Error;
 use glam::{DVec3, Vec3};
+use scenes::medium::RGB_WAVELENGTH_UM;
 use scenes::scene::Normals;
 use scenes::{Object, Scene, Shape, Surface, box_corners};
 
@@ -64,6 +65,7 @@ impl Geometry {
         at_most("bodies", solids.len(), MAX_BODIES)?;
         at_most("opaque objects", opaque.len(), MAX_BODIES)?;
         at_most("lights", scene.lights.len(), MAX_LIGHTS)?;
+        scene.media.iter().try_for_each(|medium| medium.check_at(RGB_WAVELENGTH_UM))?;
         let (centre, radius_m) = extent(scene);
         let moves = |object: &&Object| object.motion.is_some() || object.deform.is_some();
         let mut geometry = Self {
@@ -113,9 +115,7 @@ impl Geometry {
             eta: medium.eta.get() as f32,
             solid,
             absorption_per_m: medium.absorption_per_m.as_vec3(),
-            eta_channels: Vec3::from_array(
-                scenes::medium::RGB_WAVELENGTH_UM.map(|um| medium.eta_at(um) as f32),
-            ),
+            eta_channels: Vec3::from_array(RGB_WAVELENGTH_UM.map(|um| medium.eta_at(um) as f32)),
         });
         self.disperses |= medium.is_dispersive();
         let number = self.media.len() as u32;

@@ -22,6 +22,19 @@ fn unknown_names_are_told_what_there_is() {
     assert!(message.contains("thickness"), "{message}");
 }
 
+/// A law that gives no index for red is refused, one that gives one is not.
+#[test]
+fn a_colour_without_an_index_is_refused() {
+    let plan = |dispersion: f64| {
+        let camera = orthographic(2.1, [32, 32]);
+        let mut scene = scene_of(Shape::Sphere { radius_m: 1.0 }, 1.5, camera);
+        scene.media[1].dispersion = scenes::Dispersion::Gltf { dispersion };
+        realtime::plan(&scene, &request(&scene, "blended", &[LayerName::Radiance])).map(|_| ())
+    };
+    assert!(plan(1.0).is_ok());
+    assert!(matches!(plan(300.0), Err(Error::Dispersion(error)) if error.eta < 0.1));
+}
+
 #[test]
 fn absurd_sizes_are_refused_before_anything_is_allocated() {
     assert!(matches!(refused(|r| r.view.resolution_px = [0, 8]), Error::Size(_)));
