@@ -114,6 +114,7 @@ pub fn run(
 ) -> Result<(Study, Vec<ResultRow>), Error> {
     let start = Instant::now();
     let grid = sweep::expand(spec)?;
+    sweep::check(spec, &grid)?;
     announce(&estimate::estimate(spec, &grid, store));
     let progress = Progress::new("");
     let mut gallery = Gallery::of_places(grid.places.len(), out);

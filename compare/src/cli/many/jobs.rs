@@ -4,7 +4,7 @@ use crate::Error;
 use crate::cli::Status;
 use crate::cli::arguments::study::StudyArgs;
 use crate::cli::output::Output;
-use crate::study::sweep::expand;
+use crate::study::sweep::{check, expand};
 
 /// List the jobs of a study, one JSON object a line, for any engine to run with `snell run`
 ///
@@ -20,7 +20,9 @@ pub(in crate::cli) struct Args {
 }
 
 pub(in crate::cli) fn run(args: &Args, output: Output) -> Result<Status, Error> {
-    let grid = expand(&args.study.spec()?)?;
+    let spec = args.study.spec()?;
+    let grid = expand(&spec)?;
+    check(&spec, &grid)?;
     for job in grid.jobs() {
         if args.ids && !output.json {
             output.line(job.id.as_str())?;

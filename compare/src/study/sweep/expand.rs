@@ -46,7 +46,6 @@ pub fn expand(spec: &Spec) -> Result<Grid, Error> {
             wanted.push(variants.clone());
         }
     }
-    check_settings(spec, &grid)?;
     label(spec, &mut grid.places);
     for (place, variants) in grid.places.iter_mut().zip(wanted) {
         let mut tasks = vec![Task::Exact];
@@ -250,8 +249,12 @@ fn add(list: &mut Vec<Variant>, variant: &Variant) {
     known.supersampling.dedup();
 }
 
-/// Every number that is set can be set, tried one by one before any work starts.
-fn check_settings(spec: &Spec, grid: &Grid) -> Result<(), Error> {
+/// Tries every number that is set, one by one, as is done before a study starts.
+/// What runs one job of many leaves that to whoever listed them.
+///
+/// # Errors
+/// If a number cannot be set.
+pub fn check(spec: &Spec, grid: &Grid) -> Result<(), Error> {
     let mut tried: BTreeSet<(usize, &str, u64)> = BTreeSet::new();
     for place in &grid.places {
         for (key, value) in &place.set {

@@ -9,7 +9,7 @@ pub mod file;
 mod job;
 pub mod values;
 
-pub use expand::expand;
+pub use expand::{check, expand};
 pub(in crate::study) use expand::typed;
 pub use job::{Job, Task};
 
