@@ -161,9 +161,9 @@ fn what_varies_is_in_typed_columns_and_changes_what_it_must() {
     {
         assert!(head.split(',').any(|name| name == column), "{column} is not in {head}");
     }
-    // Two indices; three settings at three numbers of positions, two cheap exact
+    // Two indices; three settings at three numbers of positions, three cheap exact
     // images and the truth.
-    assert_eq!(wide.lines().count() - 1, 2 * (3 * 3 + 2 + 1));
+    assert_eq!(wide.lines().count() - 1, 2 * (3 * 3 + 3 + 1));
     let study = read_study(&folder.join("out")).unwrap();
     assert_eq!(study.scenes.len(), 2);
     let kept = study.runs.iter().filter(|run| !run.image.as_os_str().is_empty()).count();

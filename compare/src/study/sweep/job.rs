@@ -1,8 +1,10 @@
 //! One piece of a study, named by a hash of everything that it is asked.
 
-use super::Variant;
-use crate::results::{Columns, Scalar};
+use super::{Place, Variant};
+use crate::results::{Columns, REFERENCE, Scalar};
+use crate::study::Spec;
 use crate::study::cache::Id;
+use realtime::Method;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -40,24 +42,68 @@ pub struct Job {
 
 /// Everything that the result of a job depends on.
 #[derive(Serialize)]
-pub(super) struct Asked<'a> {
-    pub(super) version: &'a str,
-    pub(super) sources: [&'a str; 2],
-    pub(super) name: &'a str,
+struct Asked<'a> {
+    version: &'a str,
+    sources: [&'a str; 2],
+    name: &'a str,
     /// Hash of the scene's text and files, before numbers are set in it.
-    pub(super) scene: &'a str,
-    pub(super) set: &'a BTreeMap<String, f64>,
-    pub(super) resolution_px: [u32; 2],
-    pub(super) positions: u32,
-    pub(super) cut: f64,
-    pub(super) timing_s: f64,
-    pub(super) thorough: bool,
-    pub(super) method: &'a str,
+    scene: &'a str,
+    set: &'a BTreeMap<String, f64>,
+    resolution_px: [u32; 2],
+    positions: u32,
+    cut: f64,
+    timing_s: f64,
+    thorough: bool,
+    method: &'a str,
     /// Of a method from a user's file, or hash of an external image.
-    pub(super) text: Option<&'a str>,
-    pub(super) param: &'a BTreeMap<String, Scalar>,
-    pub(super) supersampling: &'a [u32],
-    pub(super) milliseconds: Option<f64>,
+    text: Option<&'a str>,
+    param: &'a BTreeMap<String, Scalar>,
+    supersampling: &'a [u32],
+    milliseconds: Option<f64>,
+}
+
+/// The job of a task at a place; `of_image` is the hash of an external image.
+pub(super) fn job(spec: &Spec, place: &Place, task: Task, of_image: Option<&str>) -> Job {
+    let scene = &spec.scenes[place.scene];
+    let nothing = BTreeMap::new();
+    let external = |index: &usize| spec.externals.get(*index);
+    let (method, param, supersampling): (&str, _, &[u32]) = match &task {
+        Task::Exact => (REFERENCE, &nothing, &[]),
+        Task::Method(variant) => (&variant.method, &variant.param, &variant.supersampling),
+        Task::External(index) => (external(index).map_or("", |e| &e.name), &nothing, &[]),
+    };
+    let of_file = Method::find(method).ok().and_then(Method::file_text);
+    let gpu = if matches!(task, Task::Method(_)) { env!("SNELL_REALTIME_SOURCES") } else { "" };
+    let asked = Asked {
+        version: env!("CARGO_PKG_VERSION"),
+        sources: [env!("SNELL_EXACT_SOURCES"), gpu],
+        name: &scene.name,
+        scene: &scene.source.sha256,
+        set: &place.set,
+        resolution_px: place.resolution_px,
+        positions: spec.positions_per_axis,
+        cut: spec.cut,
+        timing_s: spec.timing_s,
+        thorough: spec.thorough,
+        method,
+        text: of_image.or(of_file),
+        param,
+        supersampling,
+        milliseconds: match &task {
+            Task::External(index) => external(index).and_then(|e| e.milliseconds),
+            _ => None,
+        },
+    };
+    Job {
+        id: Id::of(&asked),
+        order: 0,
+        scene: scene.name.clone(),
+        method: method.to_owned(),
+        columns: Columns::new(param, &place.set),
+        resolution_px: place.resolution_px,
+        positions: spec.positions_per_axis,
+        task,
+    }
 }
 
 /// A job as `snell jobs` prints it.

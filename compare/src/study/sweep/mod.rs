@@ -5,13 +5,15 @@
 //! its parameters. Every variant at every place is a job with an id.
 
 mod expand;
+mod externals;
 pub mod file;
 mod job;
 pub mod values;
+mod variants;
 
 pub use expand::{check, expand};
-pub(in crate::study) use expand::typed;
 pub use job::{Job, Task};
+pub(in crate::study) use variants::typed;
 
 use crate::results::Scalar;
 use std::collections::BTreeMap;
