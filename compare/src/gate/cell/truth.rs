@@ -14,9 +14,8 @@ use scenes::LayerName;
 
 /// Branches of the tree below this weight are cut.
 const CUT: f64 = 1e-4;
-/// Paths per batch and position: with 16 batches at 4 x 4 positions 1,024 per
-/// pixel.
-const PATHS: u32 = 4;
+/// Paths per batch and position: with 16 batches at 4 x 4 positions 256 per pixel.
+const PATHS: u32 = 1;
 /// Seed of the images that the weights come from; the truth has seed 0.
 const FROZEN_SEED: u64 = 1;
 
@@ -35,11 +34,17 @@ pub fn id(gate: &SceneGate, cell: &SceneCell) -> Id {
     job(gate, cell, 0).id()
 }
 
-/// Makes the exact image anew.
+/// Makes the exact image anew; with `frozen`, the image that the weights come from
+/// too.
 ///
 /// # Errors
 /// If the scene cannot be traced, or the store cannot be used.
-pub fn make(gate: &SceneGate, cell: &SceneCell, store: &Store) -> Result<KeptTruth, Error> {
+pub fn make(
+    gate: &SceneGate,
+    cell: &SceneCell,
+    store: &Store,
+    frozen: bool,
+) -> Result<KeptTruth, Error> {
     let made = job(gate, cell, 0).make(store, &|_| ())?;
     let pinned = cell.scene.judgement.flip_exposures;
     let pinned =
@@ -52,7 +57,7 @@ pub fn make(gate: &SceneGate, cell: &SceneCell, store: &Store) -> Result<KeptTru
     } else {
         None
     };
-    let frozen = if noisy {
+    let frozen = if noisy && frozen {
         let other = job(gate, cell, FROZEN_SEED).make(store, &|_| ())?;
         Some(layer(&other, &LayerName::Radiance, cell)?)
     } else {

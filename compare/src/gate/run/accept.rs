@@ -47,7 +47,7 @@ pub fn accept_scenes(
         let name = truth::name(cell);
         let id = truth::id(gate, cell);
         if baseline.truths.get(&name).is_none_or(|kept| kept.id != id.as_str()) {
-            baseline.truths.insert(name.clone(), truth::make(gate, cell, store)?);
+            baseline.truths.insert(name.clone(), truth::make(gate, cell, store, true)?);
         }
         let made = head::render(gate, cell, &Default::default(), gpu)?;
         let image = HalfImage::of(&made.radiance, gate.resolution_px).ok_or_else(|| {

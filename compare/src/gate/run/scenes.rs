@@ -163,7 +163,7 @@ impl Truths<'_> {
         if let Some(made) = self.made.get(&name) {
             return Ok(made.clone());
         }
-        let mut made = truth::make(self.gate, cell, self.store)?;
+        let mut made = truth::make(self.gate, cell, self.store, kept.is_none())?;
         // The weights, and how FLIP looks, stay those of the baseline.
         if let Some(kept) = kept {
             made.frozen = Some(kept.frozen.clone().unwrap_or_else(|| kept.mean.clone()));
