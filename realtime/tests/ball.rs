@@ -3,54 +3,36 @@
 
 #![allow(clippy::unwrap_used, reason = "a failing test may panic")]
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use realtime::{Filter, Gpu, Keep, Request, render};
-use scenes::{Camera, Eta, LayerName, Medium, MediumId, Object, Projection};
-use scenes::{Scene, Shape, View};
+use scenes::{LayerName, Scene, Shape};
+use test_support::{angle, body, centre_rays, parallel, scene, vectors, view};
 
 const SIZE_PX: u32 = 512;
 
 fn ball(eta: f64) -> Scene {
-    let camera = Camera {
-        eye: DVec3::new(0.0, 0.0, 4.0),
-        target: DVec3::ZERO,
-        up: DVec3::Y,
-        projection: Projection::Orthographic { height_m: 2.1 },
-        resolution_px: [SIZE_PX, SIZE_PX],
-    };
-    let media = vec![Medium::vacuum(), Medium::plain("glass", Eta::try_from(eta).unwrap())];
-    let ball = Object::solid("ball", Shape::Sphere { radius_m: 1.0 }, MediumId(1));
-    Scene::in_white_light("ball", camera, media, vec![ball])
+    scene(vec![body(Shape::Sphere { radius_m: 1.0 })], eta, parallel(2.1, [SIZE_PX; 2]))
 }
 
 fn mean_angle_deg(gpu: &Gpu, eta: f64, method: &str, parameters: &[(&str, &str)]) -> f64 {
     let scene = ball(eta);
     let request = Request {
-        view: View {
-            resolution_px: [SIZE_PX, SIZE_PX],
-            positions_per_axis: 1,
-            frame: 0,
-            layers: vec![LayerName::Exit],
-        },
+        view: view(SIZE_PX, 1, &[LayerName::Exit]),
         method: method.to_owned(),
-        parameters: parameters.iter().map(|(n, v)| ((*n).to_owned(), (*v).to_owned())).collect(),
+        parameters: test_support::parameters(parameters),
         filter: Filter::Manual,
         timing: None,
         keep: Keep::Needed,
     };
     let rendering = render(gpu, &scene, &request).unwrap();
-    let exit = rendering.layers.get(&LayerName::Exit).unwrap();
+    let exits = vectors(&rendering.layers, &LayerName::Exit);
     let (mut sum, mut count) = (0.0, 0u32);
-    for (index, d) in exit.data.chunks_exact(3).enumerate() {
-        let pixel = [index as u32 % SIZE_PX, index as u32 / SIZE_PX];
-        let at = DVec2::new(f64::from(pixel[0]) + 0.5, f64::from(pixel[1]) + 0.5);
-        let ray = scene.camera.ray_through(at);
-        let d = DVec3::from_slice(d);
+    for (d, ray) in exits.into_iter().zip(centre_rays(&scene.camera)) {
         let Some(exact) = through_ball(ray.origin, ray.direction, eta) else { continue };
         if d == DVec3::ZERO {
             continue;
         }
-        sum += exact.cross(d).length().atan2(exact.dot(d)).to_degrees();
+        sum += angle(exact, d).to_degrees();
         count += 1;
     }
     assert!(count > 170_000);
@@ -71,47 +53,48 @@ fn through_ball(origin: DVec3, d: DVec3, eta: f64) -> Option<DVec3> {
 /// Index, method, parameters, expected mean in degrees, allowed difference.
 type Case = (f64, &'static str, &'static [(&'static str, &'static str)], f64, f64);
 
+#[allow(clippy::approx_constant, reason = "6.28 is an angle that was measured, not a turn")]
+const CASES: &[Case] = &[
+    (1.309, "undeviated", &[], 27.3, 0.1),
+    (1.309, "dx7", &[], 33.4, 0.1),
+    (1.309, "dx7", &[("a", "direct")], 21.3, 0.1),
+    (1.309, "one-interface", &[], 13.7, 0.1),
+    (1.1, "one-interface", &[], 6.05, 0.01),
+    (1.2, "one-interface", &[], 10.19, 0.01),
+    (1.5, "one-interface", &[], 18.20, 0.01),
+    (2.0, "one-interface", &[], 25.38, 0.01),
+    (1.1, "one-interface", &[("index", "ball")], 1.12, 0.01),
+    (1.2, "one-interface", &[("index", "ball")], 2.19, 0.01),
+    (1.309, "one-interface", &[("index", "ball")], 3.11, 0.01),
+    (1.5, "one-interface", &[("index", "ball")], 4.27, 0.01),
+    (1.309, "blended", &[], 21.3, 0.1),
+    (1.309, "blended", &[("back_normal", "inward")], 5.9, 0.1),
+    (1.309, "blended", &[("normal", "raw")], 22.5, 0.1),
+    (1.5, "blended", &[], 28.0, 0.1),
+    (1.5, "blended", &[("back_normal", "inward")], 8.3, 0.1),
+    (1.1, "two-interface", &[("distance", "view")], 1.54, 0.01),
+    (1.1, "two-interface", &[("distance", "normal")], 1.93, 0.01),
+    (1.1, "two-interface", &[], 0.730, 0.001),
+    (1.2, "two-interface", &[("distance", "view")], 3.59, 0.01),
+    (1.2, "two-interface", &[("distance", "normal")], 3.46, 0.01),
+    (1.2, "two-interface", &[], 1.742, 0.001),
+    (1.309, "two-interface", &[("distance", "view")], 5.76, 0.01),
+    (1.309, "two-interface", &[("distance", "normal")], 4.73, 0.01),
+    (1.309, "two-interface", &[], 2.836, 0.001),
+    (1.5, "two-interface", &[("distance", "view")], 9.12, 0.01),
+    (1.5, "two-interface", &[("distance", "normal")], 6.28, 0.01),
+    (1.5, "two-interface", &[], 4.551, 0.001),
+    (2.0, "two-interface", &[("distance", "view")], 15.51, 0.01),
+    (2.0, "two-interface", &[("distance", "normal")], 8.31, 0.01),
+    (2.0, "two-interface", &[], 7.830, 0.001),
+];
+
 /// Means to the digits of the table; one unit of the last digit is allowed.
 #[test]
-#[allow(clippy::approx_constant, reason = "6.28 is an angle that was measured, not a turn")]
 fn methods_miss_a_ball_by_as_much_as_theory_says() {
     let gpu = Gpu::open(None).unwrap();
-    let cases: &[Case] = &[
-        (1.309, "undeviated", &[], 27.3, 0.1),
-        (1.309, "dx7", &[], 33.4, 0.1),
-        (1.309, "dx7", &[("a", "direct")], 21.3, 0.1),
-        (1.309, "one-interface", &[], 13.7, 0.1),
-        (1.1, "one-interface", &[], 6.05, 0.01),
-        (1.2, "one-interface", &[], 10.19, 0.01),
-        (1.5, "one-interface", &[], 18.20, 0.01),
-        (2.0, "one-interface", &[], 25.38, 0.01),
-        (1.1, "one-interface", &[("index", "ball")], 1.12, 0.01),
-        (1.2, "one-interface", &[("index", "ball")], 2.19, 0.01),
-        (1.309, "one-interface", &[("index", "ball")], 3.11, 0.01),
-        (1.5, "one-interface", &[("index", "ball")], 4.27, 0.01),
-        (1.309, "blended", &[], 21.3, 0.1),
-        (1.309, "blended", &[("back_normal", "inward")], 5.9, 0.1),
-        (1.309, "blended", &[("normal", "raw")], 22.5, 0.1),
-        (1.5, "blended", &[], 28.0, 0.1),
-        (1.5, "blended", &[("back_normal", "inward")], 8.3, 0.1),
-        (1.1, "two-interface", &[("distance", "view")], 1.54, 0.01),
-        (1.1, "two-interface", &[("distance", "normal")], 1.93, 0.01),
-        (1.1, "two-interface", &[], 0.730, 0.001),
-        (1.2, "two-interface", &[("distance", "view")], 3.59, 0.01),
-        (1.2, "two-interface", &[("distance", "normal")], 3.46, 0.01),
-        (1.2, "two-interface", &[], 1.742, 0.001),
-        (1.309, "two-interface", &[("distance", "view")], 5.76, 0.01),
-        (1.309, "two-interface", &[("distance", "normal")], 4.73, 0.01),
-        (1.309, "two-interface", &[], 2.836, 0.001),
-        (1.5, "two-interface", &[("distance", "view")], 9.12, 0.01),
-        (1.5, "two-interface", &[("distance", "normal")], 6.28, 0.01),
-        (1.5, "two-interface", &[], 4.551, 0.001),
-        (2.0, "two-interface", &[("distance", "view")], 15.51, 0.01),
-        (2.0, "two-interface", &[("distance", "normal")], 8.31, 0.01),
-        (2.0, "two-interface", &[], 7.830, 0.001),
-    ];
     let mut wrong = Vec::new();
-    for (eta, method, parameters, expected, unit) in cases {
+    for (eta, method, parameters, expected, unit) in CASES {
         let found = mean_angle_deg(&gpu, *eta, method, parameters);
         if (found - expected).abs() > *unit {
             wrong.push(format!(

@@ -4,10 +4,10 @@
 
 #![allow(clippy::unwrap_used, reason = "a failing test may panic")]
 
-use glam::{DAffine3, DVec2, DVec3};
+use glam::{DAffine3, DVec3};
 use realtime::{Filter, Gpu, Keep, Request, render};
-use scenes::{Camera, Eta, LayerName, Medium, MediumId, Object, Projection};
-use scenes::{Scene, Shape, Surface, View};
+use scenes::{Camera, LayerName, MediumId, Object, Projection, Scene, Shape, Surface};
+use test_support::{angle, centre_rays, parallel, vectors, view};
 
 /// A ball of radius 1 about the origin, of glass, with at most one hole.
 struct Body {
@@ -23,15 +23,7 @@ fn scene(body: &Body, size_px: u32) -> Scene {
     };
     let mut objects = vec![ball("glass", DVec3::ZERO, 1.0, 1, 0)];
     objects.extend(body.hole.map(|(centre, radius_m)| ball("hole", centre, radius_m, 0, 1)));
-    let camera = Camera {
-        eye: DVec3::new(0.0, 0.0, 4.0),
-        target: DVec3::ZERO,
-        up: DVec3::Y,
-        projection: Projection::Orthographic { height_m: 2.1 },
-        resolution_px: [size_px, size_px],
-    };
-    let glass = Medium::plain("glass", Eta::try_from(body.eta).unwrap());
-    Scene::in_white_light("nested", camera, vec![Medium::vacuum(), glass], objects)
+    test_support::scene(objects, body.eta, parallel(2.1, [size_px; 2]))
 }
 
 /// Exit direction of the chain that always transmits; `None` where it misses
@@ -85,32 +77,24 @@ fn errors_seen(
 ) -> (f64, f64) {
     let [size_px, _] = scene.camera.resolution_px;
     let request = Request {
-        view: View {
-            resolution_px: [size_px, size_px],
-            positions_per_axis: 1,
-            frame: 0,
-            layers: vec![LayerName::Exit],
-        },
+        view: view(size_px, 1, &[LayerName::Exit]),
         method: method.to_owned(),
-        parameters: parameters.iter().map(|(n, v)| ((*n).into(), (*v).into())).collect(),
+        parameters: test_support::parameters(parameters),
         filter: Filter::Manual,
         timing: None,
         keep: Keep::Needed,
     };
     let rendering = render(gpu, scene, &request).unwrap();
-    let layer = rendering.layers.get(&LayerName::Exit).unwrap();
+    let exits = vectors(&rendering.layers, &LayerName::Exit);
     let (mut within, mut sum, mut count) = (0.0, 0.0, 0.0);
-    for (index, found) in layer.data.chunks_exact(3).enumerate() {
-        let pixel = [index as u32 % size_px, index as u32 / size_px].map(|i| f64::from(i) + 0.5);
-        let ray = scene.camera.ray_through(DVec2::from_array(pixel));
-        let found = DVec3::from_slice(found);
+    for (found, ray) in exits.into_iter().zip(centre_rays(&scene.camera)) {
         let Some(expected) = exact(body, ray.origin, ray.direction) else { continue };
         if found == DVec3::ZERO {
             continue;
         }
-        let angle = expected.cross(found).length().atan2(expected.dot(found)).to_degrees();
-        within += f64::from(u8::from(angle < 1.0));
-        sum += angle;
+        let angle_deg = angle(expected, found).to_degrees();
+        within += f64::from(u8::from(angle_deg < 1.0));
+        sum += angle_deg;
         count += 1.0;
     }
     (within / count, sum / count)

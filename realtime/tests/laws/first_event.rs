@@ -21,7 +21,7 @@ fn exits(scene: &Scene, method: &str, layer: LayerName) -> Vec<DVec3> {
     request.keep = Keep::Everything;
     let rendering = realtime::render(&GPU, scene, &request).unwrap();
     assert!(bends(&rendering), "another shader than that of {method} ran");
-    vectors(&rendering.layers, layer)
+    vectors(&rendering.layers, &layer)
 }
 
 /// An index of 1 bends nothing, though every pass runs.
@@ -99,7 +99,7 @@ fn vertices_tell_their_pixels_the_way_to_the_eye() {
         scene.objects[0].normals = Normals::Flat;
         let asked = request(&scene, "blended", &[LayerName::Exit]);
         let rendering = realtime::render(&GPU, &scene, &with(asked, &[("eye", eye)])).unwrap();
-        vectors(&rendering.layers, LayerName::Exit)
+        vectors(&rendering.layers, &LayerName::Exit)
     };
     let worst = |divisions: u32| {
         let (one, other) = (exits(divisions, "vertex"), exits(divisions, "fragment"));

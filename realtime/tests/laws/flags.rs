@@ -20,7 +20,7 @@ fn asked(scene: &Scene, method: &str, parameters: &[(&str, &str)]) -> Request {
 }
 
 fn ball(eta: f64) -> Scene {
-    scene_of(Shape::Sphere { radius_m: 1.0 }, eta, orthographic(2.1, SIZE_PX))
+    scene_of(Shape::Sphere { radius_m: 1.0 }, eta, parallel(2.1, SIZE_PX))
 }
 
 #[test]
@@ -76,7 +76,7 @@ fn a_ray_that_never_leaves_is_flagged() {
 #[test]
 fn another_body_behind_is_flagged_by_methods_of_two_surfaces() {
     let mut scene = ball(1.5);
-    let mut second = object(Shape::Sphere { radius_m: 0.4 });
+    let mut second = body(Shape::Sphere { radius_m: 0.4 });
     second.world_from_object = DAffine3::from_translation(DVec3::new(0.9, 0.0, -2.0));
     scene.objects.push(second);
     let found = share(&scene, &asked(&scene, "two-interface", &[]), flag::UNSUPPORTED);

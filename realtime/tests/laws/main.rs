@@ -15,23 +15,14 @@ use glam::{DAffine3, DVec3};
 use realtime::{Filter, Gpu, Keep, Request};
 use scenes::scene::{Normals, Object};
 use scenes::{
-    Camera, Environment, Eta, LayerName, Layers, Medium, MediumId, Projection, Rendering, Scene,
-    Shape, Surface, View,
+    Camera, Environment, Eta, LayerName, Medium, MediumId, Projection, Rendering, Scene, Shape,
+    Surface, View,
 };
 use std::sync::{Arc, LazyLock};
+use test_support::{angle, body, centre_rays, parallel, parameters, vectors};
 
 /// The adapter of this machine; a missing one fails every test that needs it.
 static GPU: LazyLock<Gpu> = LazyLock::new(|| Gpu::open(None).unwrap());
-
-fn orthographic(height_m: f64, resolution_px: [u32; 2]) -> Camera {
-    Camera {
-        eye: DVec3::new(0.0, 0.0, 3.0),
-        target: DVec3::ZERO,
-        up: DVec3::Y,
-        projection: Projection::Orthographic { height_m },
-        resolution_px,
-    }
-}
 
 fn perspective(eye: DVec3, resolution_px: [u32; 2]) -> Camera {
     let projection = Projection::Perspective { vertical_fov_deg: 35.0 };
@@ -39,12 +30,7 @@ fn perspective(eye: DVec3, resolution_px: [u32; 2]) -> Camera {
 }
 
 fn scene_of(shape: Shape, eta: f64, camera: Camera) -> Scene {
-    let glass = Medium::plain("glass", Eta::try_from(eta).unwrap());
-    Scene::in_white_light("test", camera, vec![Medium::vacuum(), glass], vec![object(shape)])
-}
-
-fn object(shape: Shape) -> Object {
-    Object::solid("body", shape, MediumId(1))
+    test_support::scene(vec![body(shape)], eta, camera)
 }
 
 fn request(scene: &Scene, method: &str, layers: &[LayerName]) -> Request {
@@ -61,10 +47,8 @@ fn request(scene: &Scene, method: &str, layers: &[LayerName]) -> Request {
 }
 
 /// With parameters as `name=value`.
-fn with(mut request: Request, parameters: &[(&str, &str)]) -> Request {
-    let owned = parameters.iter().map(|(name, value)| ((*name).into(), (*value).into()));
-    request.parameters = owned.collect();
-    request
+fn with(request: Request, list: &[(&str, &str)]) -> Request {
+    Request { parameters: parameters(list), ..request }
 }
 
 /// Light met interfaces: a method's own shader ran, and not the one that lets
@@ -72,23 +56,6 @@ fn with(mut request: Request, parameters: &[(&str, &str)]) -> Request {
 fn bends(rendering: &Rendering) -> bool {
     let events = &rendering.layers.get(&LayerName::Events).unwrap().data;
     events.iter().any(|events| *events > 0.0)
-}
-
-/// Vectors of a layer, pixel by pixel.
-fn vectors(layers: &Layers, name: LayerName) -> Vec<DVec3> {
-    layers.get(&name).unwrap().data.chunks_exact(3).map(DVec3::from_slice).collect()
-}
-
-/// Rays through the pixels' centres.
-fn centre_rays(camera: &Camera) -> Vec<scenes::Ray> {
-    let [width, height] = camera.resolution_px;
-    let pixel = |i: u32| glam::DVec2::new(f64::from(i % width), f64::from(i / width)) + 0.5;
-    (0..width * height).map(|i| camera.ray_through(pixel(i))).collect()
-}
-
-/// Angle between two vectors, radians, without the cancellation of acos.
-fn angle(a: DVec3, b: DVec3) -> f64 {
-    a.cross(b).length().atan2(a.dot(b))
 }
 
 /// Snell's law in f64, written for these tests: cosines from the plane of

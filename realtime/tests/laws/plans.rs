@@ -36,7 +36,7 @@ fn scenes() -> Vec<Scene> {
         Shape::Cylinder { radius_m: 0.5, half_height_m: 0.6 },
         tetrahedron(),
     ];
-    let cameras = [orthographic(2.1, [24, 16]), perspective(DVec3::new(0.4, 0.8, 3.5), [24, 16])];
+    let cameras = [parallel(2.1, [24, 16]), perspective(DVec3::new(0.4, 0.8, 3.5), [24, 16])];
     let mut scenes = Vec::new();
     for shape in &shapes {
         for camera in cameras {
@@ -75,11 +75,11 @@ fn everything() -> Scene {
     });
     let white = || Paint::Constant(DVec3::ONE);
     let checker = Paint::Checker { colours: [DVec3::ZERO, DVec3::ONE], size_m: 0.3 };
-    let mut ball = object(Shape::Sphere { radius_m: 0.3 });
+    let mut ball = body(Shape::Sphere { radius_m: 0.3 });
     ball.surface = Surface::Unlit { radiance: white() };
     ball.world_from_object = DAffine3::from_translation(DVec3::new(-1.0, 0.3, -1.0));
     ball.motion = Some(Motion::Spin { axis: DVec3::Y, deg_per_s: 10.0 });
-    let mut floor = object(Shape::Box { half_extent_m: DVec3::new(2.0, 0.1, 2.0) });
+    let mut floor = body(Shape::Box { half_extent_m: DVec3::new(2.0, 0.1, 2.0) });
     floor.surface = Surface::Lambert { albedo: checker };
     floor.world_from_object = DAffine3::from_translation(DVec3::new(0.0, -1.0, 0.0));
     scene.objects.extend([ball, floor]);
@@ -180,7 +180,7 @@ fn cracks_may_bend_light() {
         rendering
     });
     assert_eq!(a.passes.len() + 1, b.passes.len());
-    let exits = |r: &Rendering| vectors(&r.layers, LayerName::Exit);
+    let exits = |r: &Rendering| vectors(&r.layers, &LayerName::Exit);
     let bent = exits(&a).iter().zip(exits(&b)).filter(|(a, b)| angle(**a, *b) > 1e-3).count();
     let body = exits(&a).iter().filter(|exit| **exit != DVec3::ZERO).count();
     assert!(bent > body / 20 && bent < body, "{bent} of {body}");
@@ -189,7 +189,7 @@ fn cracks_may_bend_light() {
 /// The comparison can fail: a plan with a pass or a byte too few is not kept.
 #[test]
 fn a_pass_or_a_byte_too_many_is_noticed() {
-    let scene = scene_of(Shape::Sphere { radius_m: 0.7 }, 1.5, orthographic(2.1, [16, 16]));
+    let scene = scene_of(Shape::Sphere { radius_m: 0.7 }, 1.5, parallel(2.1, [16, 16]));
     let request = request(&scene, "blended", &[LayerName::Radiance]);
     let rendering = realtime::render(&GPU, &scene, &request).unwrap();
     let plan = realtime::plan(&scene, &request).unwrap();
@@ -277,7 +277,7 @@ fn settings(method: &Method) -> Vec<std::collections::BTreeMap<String, String>> 
 /// What is timed is what a game would draw, whatever the judged image is.
 #[test]
 fn the_timed_frame_has_one_position_and_the_hardwares_filter() {
-    let mut scene = scene_of(Shape::Sphere { radius_m: 0.7 }, 1.5, orthographic(2.1, [16, 16]));
+    let mut scene = scene_of(Shape::Sphere { radius_m: 0.7 }, 1.5, parallel(2.1, [16, 16]));
     scene.environment = environments()[1].clone();
     let mut request = request(&scene, "one-interface", &many_layers());
     request.view.positions_per_axis = 4;

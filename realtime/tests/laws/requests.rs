@@ -4,7 +4,7 @@ use crate::*;
 use realtime::Error;
 
 fn refused(change: impl FnOnce(&mut Request)) -> Error {
-    let scene = scene_of(Shape::Sphere { radius_m: 1.0 }, 1.5, orthographic(2.1, [32, 32]));
+    let scene = scene_of(Shape::Sphere { radius_m: 1.0 }, 1.5, parallel(2.1, [32, 32]));
     let mut request = request(&scene, "blended", &[LayerName::Radiance]);
     change(&mut request);
     realtime::plan(&scene, &request).unwrap_err()
@@ -26,7 +26,7 @@ fn unknown_names_are_told_what_there_is() {
 #[test]
 fn a_colour_without_an_index_is_refused() {
     let plan = |dispersion: f64| {
-        let camera = orthographic(2.1, [32, 32]);
+        let camera = parallel(2.1, [32, 32]);
         let mut scene = scene_of(Shape::Sphere { radius_m: 1.0 }, 1.5, camera);
         scene.media[1].dispersion = scenes::Dispersion::Gltf { dispersion };
         realtime::plan(&scene, &request(&scene, "blended", &[LayerName::Radiance])).map(|_| ())
@@ -52,7 +52,7 @@ fn an_unknown_adapter_is_told_what_there_is() {
 /// the share of its positions whose rays meet the ball.
 #[test]
 fn positions_lie_where_they_are_stated_to_lie() {
-    let camera = orthographic(2.1, [24, 24]);
+    let camera = parallel(2.1, [24, 24]);
     let scene = scene_of(Shape::Sphere { radius_m: 1.0 }, 1.5, camera);
     let mut request = request(&scene, "undeviated", &[LayerName::Coverage]);
     request.view.positions_per_axis = 4;
@@ -71,7 +71,7 @@ fn positions_lie_where_they_are_stated_to_lie() {
 /// bodies are of it.
 #[test]
 fn a_path_is_that_of_the_bodies_medium_or_refused() {
-    let mut scene = scene_of(Shape::Sphere { radius_m: 1.0 }, 1.5, orthographic(2.1, [8, 8]));
+    let mut scene = scene_of(Shape::Sphere { radius_m: 1.0 }, 1.5, parallel(2.1, [8, 8]));
     let asked = |scene: &Scene, medium: &str| {
         realtime::plan(scene, &request(scene, "multi", &[LayerName::Path(medium.into())]))
     };
@@ -87,7 +87,7 @@ fn a_path_is_that_of_the_bodies_medium_or_refused() {
 #[test]
 fn half_a_step_is_refused() {
     let steps = |text: &str| {
-        let scene = scene_of(Shape::Sphere { radius_m: 1.0 }, 1.5, orthographic(2.1, [8, 8]));
+        let scene = scene_of(Shape::Sphere { radius_m: 1.0 }, 1.5, parallel(2.1, [8, 8]));
         let asked = request(&scene, "multi", &[LayerName::Radiance]);
         realtime::plan(&scene, &with(asked, &[("binary_steps", text)]))
     };

@@ -100,8 +100,11 @@ fn drawn(scene: &Scene, frame: u32) -> Vec<(DVec3, DVec3)> {
     let mut recorder = Recorder::new(&gpu, false);
     frame.record(&mut recorder, true);
     recorder.finish().unwrap();
-    let cube = frame.outputs.image("environment_cube").unwrap();
-    let values = readback::texture_values(&gpu, cube, 4).unwrap();
+    texels(&gpu, frame.outputs.image("environment_cube").unwrap())
+}
+
+fn texels(gpu: &Gpu, cube: &wgpu::Texture) -> Vec<(DVec3, DVec3)> {
+    let values = readback::texture_values(gpu, cube, 4).unwrap();
     assert_eq!(values.len(), (6 * SIZE_PX * SIZE_PX * 4) as usize);
     let texel = |i: usize| {
         let i = i as u32;
