@@ -140,7 +140,7 @@ fn shading(
     let given: Vec<[Option<u32>; 3]> =
         corners.iter().map(|triangle| triangle.map(&mut given)).collect();
     let all = 3 * corners.len();
-    warnings.extend(doubts(statements.normals.len(), all, missing, unusable));
+    warnings.extend(doubts(statements.normals_written, all, missing, unusable));
     let has_polygons = statements.faces().any(|face| face.len() > 3);
     if values.is_empty() && !has_polygons {
         return None;
