@@ -44,8 +44,12 @@ impl World {
         self.bodies[crossing.body as usize].class()
     }
 
-    /// How far along the line rounding can move a crossing.
+    /// How far along the line rounding can move a crossing. Not at all where that
+    /// is infinitely far away.
     fn blur(&self, line: &Line, crossing: &Crossing) -> f64 {
+        if crossing.t.is_infinite() {
+            return 0.0;
+        }
         line.rounding_at(crossing.t) / self.cosine(line, crossing).max(FLATTEST)
     }
 
@@ -109,6 +113,12 @@ impl World {
     ) -> End<W> {
         let (mut rest, mut from_t) = (crossings, 0.0);
         while let Some(first) = rest.first() {
+            if first.t == f64::INFINITY {
+                // A body without end: light comes through it from infinity, and
+                // there is no surface there.
+                scratch.note::<W, LENGTHS>(indices, &winding, f64::INFINITY);
+                return End::Environment;
+            }
             let t = first.t.max(0.0);
             match self.bodies[first.body as usize].role {
                 Role::Solid(_) => {}
