@@ -20,6 +20,21 @@ pub struct Request {
     pub keep: Keep,
 }
 
+impl Request {
+    /// An image by a method with its default parameters, not timed.
+    #[must_use]
+    pub fn new(view: View, method: &str, keep: Keep) -> Self {
+        Self {
+            view,
+            method: method.to_owned(),
+            parameters: BTreeMap::new(),
+            filter: Filter::Manual,
+            timing: None,
+            keep,
+        }
+    }
+}
+
 /// What of a frame is kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Keep {

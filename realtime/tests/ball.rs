@@ -4,7 +4,7 @@
 #![allow(clippy::unwrap_used, reason = "a failing test may panic")]
 
 use glam::DVec3;
-use realtime::{Filter, Gpu, Keep, Request, render};
+use realtime::{Gpu, Keep, Request, render};
 use scenes::{LayerName, Scene, Shape};
 use test_support::{angle, body, centre_rays, parallel, scene, vectors, view};
 
@@ -16,14 +16,9 @@ fn ball(eta: f64) -> Scene {
 
 fn mean_angle_deg(gpu: &Gpu, eta: f64, method: &str, parameters: &[(&str, &str)]) -> f64 {
     let scene = ball(eta);
-    let request = Request {
-        view: view(SIZE_PX, 1, &[LayerName::Exit]),
-        method: method.to_owned(),
-        parameters: test_support::parameters(parameters),
-        filter: Filter::Manual,
-        timing: None,
-        keep: Keep::Needed,
-    };
+    let view = view(SIZE_PX, 1, &[LayerName::Exit]);
+    let parameters = test_support::parameters(parameters);
+    let request = Request { parameters, ..Request::new(view, method, Keep::Needed) };
     let rendering = render(gpu, &scene, &request).unwrap();
     let exits = vectors(&rendering.layers, &LayerName::Exit);
     let (mut sum, mut count) = (0.0, 0u32);

@@ -5,7 +5,7 @@
 #![allow(clippy::unwrap_used, reason = "a failing test may panic")]
 
 use glam::{DAffine3, DVec3};
-use realtime::{Filter, Gpu, Keep, Request, render};
+use realtime::{Gpu, Keep, Request, render};
 use scenes::{Camera, LayerName, MediumId, Object, Projection, Scene, Shape, Surface};
 use test_support::{angle, centre_rays, parallel, vectors, view};
 
@@ -76,14 +76,9 @@ fn errors_seen(
     parameters: &[(&str, &str)],
 ) -> (f64, f64) {
     let [size_px, _] = scene.camera.resolution_px;
-    let request = Request {
-        view: view(size_px, 1, &[LayerName::Exit]),
-        method: method.to_owned(),
-        parameters: test_support::parameters(parameters),
-        filter: Filter::Manual,
-        timing: None,
-        keep: Keep::Needed,
-    };
+    let view = view(size_px, 1, &[LayerName::Exit]);
+    let parameters = test_support::parameters(parameters);
+    let request = Request { parameters, ..Request::new(view, method, Keep::Needed) };
     let rendering = render(gpu, scene, &request).unwrap();
     let exits = vectors(&rendering.layers, &LayerName::Exit);
     let (mut within, mut sum, mut count) = (0.0, 0.0, 0.0);

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a failing test may panic")]
 
 use glam::{DAffine3, DVec3};
-use realtime::{Filter, Gpu, Keep, Request, Timing, plan, render};
+use realtime::{Gpu, Keep, Request, Timing, plan, render};
 use scenes::layer::flag;
 use scenes::{
     Camera, LayerName, MediumId, Object, Projection, Rendering, Scene, Shape, Surface, View,
@@ -32,19 +32,10 @@ fn mesh(name: &str) -> Shape {
 }
 
 fn request(scene: &Scene, parameters: &[(&str, &str)], layers: Vec<LayerName>) -> Request {
-    Request {
-        view: View {
-            resolution_px: scene.camera.resolution_px,
-            positions_per_axis: 1,
-            frame: 0,
-            layers,
-        },
-        method: "multi".into(),
-        parameters: test_support::parameters(parameters),
-        filter: Filter::Manual,
-        timing: None,
-        keep: Keep::Needed,
-    }
+    let resolution_px = scene.camera.resolution_px;
+    let view = View { resolution_px, positions_per_axis: 1, frame: 0, layers };
+    let parameters = test_support::parameters(parameters);
+    Request { parameters, ..Request::new(view, "multi", Keep::Needed) }
 }
 
 fn buffer(name: String) -> LayerName {

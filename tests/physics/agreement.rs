@@ -6,30 +6,15 @@
 use glam::DVec3;
 use realtime::Keep;
 use reference::Level;
-use scenes::{Environment, Eta, LayerName, Scene, View};
+use scenes::{Environment, Eta, LayerName, Scene};
+use test_support::{angle, vectors, view};
 
 const SIZE_PX: u32 = 96;
 
-fn view(layer: LayerName) -> View {
-    View { resolution_px: [SIZE_PX; 2], positions_per_axis: 1, frame: 0, layers: vec![layer] }
-}
-
-fn vectors(layers: &scenes::Layers, name: &LayerName) -> Vec<DVec3> {
-    layers.get(name).unwrap().data.chunks_exact(3).map(DVec3::from_slice).collect()
-}
-
 /// With everything kept: the method's own shader runs, whatever the indices.
 fn approximate(gpu: &realtime::Gpu, scene: &Scene, method: &str, layer: &LayerName) -> Vec<DVec3> {
-    let mut view = view(layer.clone());
-    view.layers.push(LayerName::Events);
-    let request = realtime::Request {
-        view,
-        method: method.to_owned(),
-        parameters: [].into(),
-        filter: realtime::Filter::Manual,
-        timing: None,
-        keep: Keep::Everything,
-    };
+    let view = view(SIZE_PX, 1, &[layer.clone(), LayerName::Events]);
+    let request = realtime::Request::new(view, method, Keep::Everything);
     let rendering = realtime::render(gpu, scene, &request).unwrap();
     let events = &rendering.layers.get(&LayerName::Events).unwrap().data;
     let bends = events.iter().any(|events| *events > 0.0);
@@ -38,14 +23,14 @@ fn approximate(gpu: &realtime::Gpu, scene: &Scene, method: &str, layer: &LayerNa
 }
 
 fn exact(scene: &Scene, layer: &LayerName) -> Vec<DVec3> {
-    let request = reference::Request::new(view(layer.clone()), Level::R0);
+    let request = reference::Request::new(view(SIZE_PX, 1, std::slice::from_ref(layer)), Level::R0);
     vectors(&reference::render(scene, &request).unwrap().layers, layer)
 }
 
 /// Angles in radians where both have a direction, and how many have only one.
 fn differences(a: &[DVec3], b: &[DVec3]) -> (Vec<f64>, usize) {
     let both = a.iter().zip(b).filter(|(a, b)| **a != DVec3::ZERO && **b != DVec3::ZERO);
-    let angles = both.map(|(a, b)| a.cross(*b).length().atan2(a.dot(*b))).collect();
+    let angles = both.map(|(a, b)| angle(*a, *b)).collect();
     let one = a.iter().zip(b).filter(|(a, b)| (**a == DVec3::ZERO) != (**b == DVec3::ZERO));
     (angles, one.count())
 }

@@ -7,8 +7,9 @@
 
 use glam::DVec3;
 use reference::{Level, render};
-use scenes::{Camera, LayerName, Projection, Scene, View};
+use scenes::{Camera, LayerName, Projection, Scene};
 use std::f64::consts::PI;
+use test_support::{angle, parameters, vectors, view};
 
 fn cube(eta: f64) -> Scene {
     let text = format!(
@@ -38,17 +39,12 @@ fn look(scene: &mut Scene, eye: DVec3, d: DVec3, height_m: f64) {
 }
 
 fn layers(scene: &Scene) -> scenes::Layers {
-    let view = View {
-        resolution_px: [1, 1],
-        positions_per_axis: 1,
-        frame: 0,
-        layers: vec![LayerName::Exit, LayerName::TotalReflections],
-    };
+    let view = view(1, 1, &[LayerName::Exit, LayerName::TotalReflections]);
     render(scene, &reference::Request::new(view, Level::R0)).unwrap().layers
 }
 
 fn angle_deg(a: DVec3, b: DVec3) -> f64 {
-    a.cross(b).length().atan2(a.dot(b)).to_degrees()
+    angle(a, b).to_degrees()
 }
 
 /// Where a direction meets the cube, and how much that counts.
@@ -130,19 +126,12 @@ const SEEN_M: f64 = 1.8;
 
 /// Exits that a method draws for one direction, a pixel each.
 fn drawn(gpu: &realtime::Gpu, scene: &Scene, method: &str, words: &[(&str, &str)]) -> Vec<DVec3> {
-    let layers = vec![LayerName::Exit];
-    let owned = words.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
+    let view = view(SEEN_PX, 1, &[LayerName::Exit]);
     let request = realtime::Request {
-        view: View { resolution_px: [SEEN_PX; 2], positions_per_axis: 1, frame: 0, layers },
-        method: method.to_owned(),
-        parameters: owned.collect(),
-        filter: realtime::Filter::Manual,
-        timing: None,
-        keep: realtime::Keep::Needed,
+        parameters: parameters(words),
+        ..realtime::Request::new(view, method, realtime::Keep::Needed)
     };
-    let rendering = realtime::render(gpu, scene, &request).unwrap();
-    let exits = &rendering.layers.get(&LayerName::Exit).unwrap().data;
-    exits.chunks_exact(3).map(DVec3::from_slice).collect()
+    vectors(&realtime::render(gpu, scene, &request).unwrap().layers, &LayerName::Exit)
 }
 
 /// The faces through which a straight ray enters and leaves the cube: two slabs

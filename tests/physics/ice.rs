@@ -10,8 +10,7 @@ use scenes::{LayerName, Scene, View};
 const SIZE_PX: u32 = 256;
 
 fn view() -> View {
-    let layers = vec![LayerName::Buffer("crack_mask".into())];
-    View { resolution_px: [SIZE_PX; 2], positions_per_axis: 1, frame: 0, layers }
+    test_support::view(SIZE_PX, 1, &[LayerName::Buffer("crack_mask".into())])
 }
 
 fn cracked(name: &str) -> Scene {
@@ -21,14 +20,9 @@ fn cracked(name: &str) -> Scene {
 }
 
 fn drawn(gpu: &realtime::Gpu, scene: &Scene, parameters: &[(&str, &str)]) -> Vec<bool> {
-    let owned = parameters.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
     let request = realtime::Request {
-        view: view(),
-        method: "blended".to_owned(),
-        parameters: owned.collect(),
-        filter: realtime::Filter::Manual,
-        timing: None,
-        keep: realtime::Keep::Needed,
+        parameters: test_support::parameters(parameters),
+        ..realtime::Request::new(view(), "blended", realtime::Keep::Needed)
     };
     mask(&realtime::render(gpu, scene, &request).unwrap().layers)
 }

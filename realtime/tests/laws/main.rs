@@ -34,16 +34,9 @@ fn scene_of(shape: Shape, eta: f64, camera: Camera) -> Scene {
 }
 
 fn request(scene: &Scene, method: &str, layers: &[LayerName]) -> Request {
-    let resolution_px = scene.camera.resolution_px;
-    let layers = layers.to_vec();
-    Request {
-        view: View { resolution_px, positions_per_axis: 1, frame: 0, layers },
-        method: method.to_owned(),
-        parameters: [].into(),
-        filter: Filter::Manual,
-        timing: None,
-        keep: Keep::Needed,
-    }
+    let (resolution_px, layers) = (scene.camera.resolution_px, layers.to_vec());
+    let view = View { resolution_px, positions_per_axis: 1, frame: 0, layers };
+    Request::new(view, method, Keep::Needed)
 }
 
 /// With parameters as `name=value`.

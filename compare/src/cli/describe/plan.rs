@@ -49,15 +49,9 @@ pub(in crate::cli) fn run(args: &Args, output: Output) -> Result<Status, Error> 
     let (renderer, plan) = match &args.method {
         Some(method) => {
             let parameters = args.parameters.iter().cloned().collect();
-            let (filter, method) = (realtime::Filter::Manual, method.clone());
-            let request = realtime::Request {
-                view,
-                method,
-                parameters,
-                filter,
-                timing: None,
-                keep: realtime::Keep::Needed,
-            };
+            let keep = realtime::Keep::Needed;
+            let request =
+                realtime::Request { parameters, ..realtime::Request::new(view, method, keep) };
             (request.method.clone(), realtime::plan(&scene, &request)?)
         }
         None => {

@@ -1,5 +1,6 @@
 //! Medians of few repetitions and how far to believe them.
 
+use crate::support::sum::quantile;
 use scenes::noise::SplitMix64;
 use serde::Serialize;
 
@@ -94,9 +95,9 @@ fn sorted(values: &[f64]) -> Vec<f64> {
     sorted
 }
 
+/// Median of ascending values; NaN for none.
 fn middle(sorted: &[f64]) -> f64 {
-    let half = sorted.len() / 2;
-    if sorted.len() % 2 == 1 { sorted[half] } else { 0.5 * (sorted[half - 1] + sorted[half]) }
+    quantile(sorted, 0.5).unwrap_or(f64::NAN)
 }
 
 #[cfg(test)]

@@ -64,14 +64,8 @@ fn drawn(scene: &Scene, frame: u32) -> Vec<(DVec3, DVec3)> {
     let layers = vec![LayerName::Radiance];
     let view = View { resolution_px: [32; 2], positions_per_axis: 1, frame, layers };
     let method = Method::find("one-interface").unwrap();
-    let request = Request {
-        view,
-        method: method.id.to_owned(),
-        parameters: [].into(),
-        filter: Filter::Hardware,
-        timing: None,
-        keep: Keep::Needed,
-    };
+    let request =
+        Request { filter: Filter::Hardware, ..Request::new(view, method.id, Keep::Needed) };
     let settings = Settings::new(method, &request.parameters).unwrap();
     let geometry = Geometry::new(scene, frame).unwrap();
     let camera = &scene.camera;
