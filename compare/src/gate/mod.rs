@@ -10,7 +10,6 @@
 mod adapter_class;
 pub mod cell;
 pub mod difference;
-mod error;
 pub mod file;
 pub mod limit;
 pub mod output;
@@ -20,5 +19,5 @@ pub mod run;
 pub mod time;
 pub mod verdict;
 
+pub use crate::error::GateError;
 pub use adapter_class::AdapterClass;
-pub use error::GateError;

@@ -1,7 +1,10 @@
 //! What can stop a command: where, what, and what to write instead.
 
+mod gate;
+
+pub use gate::GateError;
+
 use crate::bench::BenchError;
-use crate::gate::GateError;
 use crate::image_pair::ImagePairError;
 use crate::metric::JudgementError;
 use crate::report::ReportError;
