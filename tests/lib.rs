@@ -29,8 +29,7 @@ pub struct Ran {
 /// If it cannot be started.
 #[must_use]
 pub fn run(command: &mut Command) -> Ran {
-    // Mesa's device-selection layer would complain about a missing desktop session.
-    let started = command.env("NODEVICE_SELECT", "1").output();
+    let started = command.output();
     assert!(started.is_ok(), "{command:?} cannot be started: {started:?}");
     let Output { status, stdout, stderr } = started.unwrap_or_else(|_| unreachable!());
     let text = |bytes: Vec<u8>| String::from_utf8_lossy(&bytes).into_owned();

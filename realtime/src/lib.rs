@@ -20,7 +20,7 @@ mod request;
 mod wgsl;
 
 pub use error::Error;
-pub use gpu::{AdapterInfo, Gpu, adapters};
+pub use gpu::{AdapterInfo, Gpu, adapters, noise};
 pub use methods::{METHODS, Method};
 pub use render::{plan, render};
 pub use request::{Filter, Keep, Request, Timing};

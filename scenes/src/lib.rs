@@ -26,7 +26,7 @@ pub mod whole;
 pub use builtin::{Builtin, builtin, builtins, find};
 pub use camera::{Camera, Projection, Ray};
 pub use environment::{Cube, Environment};
-pub use format::{Error, load, parse};
+pub use format::{Error, Overrides, load, parse};
 pub use ice::{air, crack, noise};
 pub use medium::{Dispersion, Medium, MediumId, eta, eta::Eta, materials};
 pub use mesh::{Mesh, distance, normals, obj, topology};

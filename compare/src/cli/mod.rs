@@ -9,6 +9,7 @@ mod many;
 mod output;
 mod render;
 mod status;
+mod warnings;
 
 use crate::Error;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
@@ -21,6 +22,7 @@ use render::{caustics, realtime, reference};
 use status::{EXIT_STATUS, Status};
 use std::io::Write;
 use std::process::ExitCode;
+use warnings::Warnings;
 
 /// How wrong is real-time refraction, and what does it cost?
 #[derive(Debug, Parser)]
@@ -31,6 +33,9 @@ struct Cli {
     /// Answer with one JSON object per line
     #[arg(long, global = true)]
     json: bool,
+    /// End with exit status 2 where there would be a warning
+    #[arg(long, global = true)]
+    deny_warnings: bool,
 }
 
 #[derive(Debug, Subcommand)]
@@ -83,8 +88,11 @@ impl Command {
 /// Runs the command line of this process.
 #[must_use]
 pub fn main() -> ExitCode {
+    quiet_the_driver();
     let cli = parse();
-    let output = Output { json: cli.json };
+    // One for the whole process, so that every part of it can tell.
+    let warnings = Box::leak(Box::new(Warnings::new(cli.deny_warnings)));
+    let output = Output { json: cli.json, warnings };
     match cli.command.run(output) {
         Ok(status) => ExitCode::from(status as u8),
         // Whoever read the answer has seen enough of it, such as `head`.
@@ -95,6 +103,20 @@ pub fn main() -> ExitCode {
             let _ = writeln!(std::io::stderr(), "error: {error}");
             ExitCode::from(2)
         }
+    }
+}
+
+/// Starts this program again, in the same process, where the GPU's driver would
+/// otherwise complain on standard error of things that have nothing to do with it.
+fn quiet_the_driver() {
+    #[cfg(unix)]
+    if let (Some((name, value)), Ok(program)) = (::realtime::noise(), std::env::current_exe()) {
+        use std::os::unix::process::CommandExt;
+        // It returns only if it failed, and then there are two lines too many.
+        let _ = std::process::Command::new(program)
+            .args(std::env::args_os().skip(1))
+            .env(name, value)
+            .exec();
     }
 }
 

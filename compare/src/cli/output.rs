@@ -2,6 +2,7 @@
 //! Everything else (progress, warnings, errors) goes to standard error.
 
 use crate::Error;
+use crate::cli::warnings::Warnings;
 use serde::Serialize;
 use std::io::{self, Write};
 
@@ -10,12 +11,16 @@ use std::io::{self, Write};
 pub(super) struct Output {
     /// True when the answer is for programs.
     pub(super) json: bool,
+    /// What people must know of what they asked for.
+    pub(super) warnings: &'static Warnings,
 }
 
-/// An object of the answer with the name and version of its form first.
+/// An object of the answer: the name and version of its form, what was warned of,
+/// and the rest.
 #[derive(Serialize)]
 struct Line<'a, T> {
     schema: &'a str,
+    warnings: Vec<String>,
     #[serde(flatten)]
     object: &'a T,
 }
@@ -26,6 +31,14 @@ impl Output {
         writeln!(io::stdout().lock(), "{text}").map_err(Error::Output)
     }
 
+    /// Warns of what is said of a thing: a scene, a file.
+    ///
+    /// # Errors
+    /// If warnings are denied.
+    pub(super) fn warn(self, of: &str, texts: &[String]) -> Result<(), Error> {
+        self.warnings.tell(texts.iter().map(|text| format!("{of}: {text}")))
+    }
+
     /// Tells people something that is not the answer.
     pub(super) fn note(text: &str) {
         // Nobody listens if standard error is closed.
@@ -34,7 +47,7 @@ impl Output {
 
     /// Writes one JSON object on a line of its own.
     pub(super) fn object(self, schema: &str, object: &impl Serialize) -> Result<(), Error> {
-        self.own_object(&Line { schema, object })
+        self.own_object(&Line { schema, warnings: self.warnings.all(), object })
     }
 
     /// Writes one JSON object that names its schema itself.

@@ -62,12 +62,19 @@ pub enum Error {
         /// What is wrong with it.
         why: String,
     },
+    /// Warnings that the user does not accept.
+    #[error("--deny-warnings: there {} above\nmend what is warned of, or leave the option out", warned(*.0))]
+    Warnings(usize),
     /// Options that contradict each other.
     #[error("{0}")]
     Usage(String),
     /// Standard output is gone or full.
     #[error("the answer cannot be written to standard output: {0}")]
     Output(std::io::Error),
+}
+
+fn warned(count: usize) -> String {
+    if count == 1 { "is a warning".to_owned() } else { format!("are {count} warnings") }
 }
 
 fn reasons(left_out: &[NotDone]) -> String {

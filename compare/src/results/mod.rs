@@ -231,6 +231,8 @@ pub struct SceneEntry {
     pub toml: String,
     /// Width and height of the judged images, pixels.
     pub resolution_px: [u32; 2],
+    /// What is doubtful in it.
+    pub warnings: Vec<String>,
     /// Exposures of HDR-FLIP: start and stop (powers of two) and their number.
     pub flip_exposures: Option<(f64, f64, u32)>,
 }

@@ -72,6 +72,7 @@ impl<'a> PlaceWork<'a> {
             title: self.scene.title.clone(),
             toml: self.scene.source.text.clone(),
             resolution_px: truth.layers.resolution_px,
+            warnings: self.scene.warnings.clone(),
             flip_exposures: judge.exposures(),
         };
         output::copy_image(truth, &folder.join(IMAGE))?;

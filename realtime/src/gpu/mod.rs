@@ -37,6 +37,21 @@ pub struct Gpu {
     lost: Arc<OnceLock<String>>,
 }
 
+/// An environment variable that keeps a driver from writing to standard error,
+/// and its value, where one is needed and not set; to be set before this process
+/// starts.
+///
+/// Mesa's layer that sorts devices asks the Wayland server for its own, and says
+/// "error: XDG_RUNTIME_DIR is invalid or not set" where no desktop session is.
+/// There it has nothing to sort by, unless it is told a device by name.
+#[must_use]
+pub fn noise() -> Option<(&'static str, &'static str)> {
+    let is_set = |name| std::env::var_os(name).is_some();
+    let asked = ["NODEVICE_SELECT", "XDG_RUNTIME_DIR", "MESA_VK_DEVICE_SELECT"];
+    (cfg!(target_os = "linux") && !asked.into_iter().any(is_set))
+        .then_some(("NODEVICE_SELECT", "1"))
+}
+
 /// What can be used here, in wgpu's order.
 #[must_use]
 pub fn adapters() -> Vec<AdapterInfo> {

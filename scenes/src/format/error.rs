@@ -66,6 +66,9 @@ pub enum Error {
     /// An image file given on its own is wrong.
     #[error(transparent)]
     Image(#[from] crate::image::Error),
+    /// A part that a scene has no place for.
+    #[error("{0}")]
+    Override(String),
     /// An index given on its own is wrong.
     #[error(transparent)]
     Eta(#[from] crate::eta::EtaError),

@@ -15,6 +15,7 @@ mod choice;
 mod document;
 mod error;
 mod number;
+mod overrides;
 mod resolve;
 mod set;
 mod sky;
@@ -23,6 +24,7 @@ mod tests;
 
 pub(crate) use body::default_sky;
 pub use error::{Error, MeshError, Place, Problem};
+pub use overrides::Overrides;
 
 use crate::Scene;
 use document::Document;

@@ -57,10 +57,7 @@ impl Extras {
             extras.sha256 = hex(&hash.finalize());
             let turn = text.environment_rotation_deg;
             let map = Map::from_lat_long(name, lat_long, turn, None, Repair::default());
-            if map.repaired_texels > 0 {
-                let count = map.repaired_texels;
-                extras.warnings.push(format!("{name}: {count} texels have been repaired"));
-            }
+            extras.warnings.extend(map.warnings());
             extras.environment = Some(Environment::Map(Arc::new(map)));
         }
         Ok(extras)

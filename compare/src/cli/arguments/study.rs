@@ -2,9 +2,10 @@
 //! names in a study file.
 
 use super::external::ExternalArgs;
+use super::scene::OverrideArgs;
 use super::values;
 use crate::Error;
-use crate::cli::arguments::scene;
+use crate::cli::output::Output;
 use crate::results::NotDone;
 use crate::study::Spec;
 use crate::study::sweep::{Axes, Knob, file, values::numbers, values::values as list};
@@ -24,15 +25,12 @@ pub(in crate::cli) struct StudyArgs {
     /// Judge the method in this file of WGSL too; repeat for several
     #[arg(long = "method-file", value_name = "FILE.wgsl", value_parser = method_file)]
     method_files: Vec<String>,
-    /// Judge this closed mesh instead of a scene, with the camera fitted to it
+    /// Judge this closed mesh instead of a scene, with the camera fitted to it: of index 1.5, under
+    /// a procedural sky, unless --eta and --map say otherwise
     #[arg(long, value_name = "FILE.obj", conflicts_with = "scenes")]
     obj: Option<PathBuf>,
-    /// Environment of the mesh, lat-long .exr or .hdr [default: a procedural sky]
-    #[arg(long, value_name = "FILE", requires = "obj")]
-    map: Option<PathBuf>,
-    /// Absolute refractive index of the mesh
-    #[arg(long, value_name = "INDEX", requires = "obj", default_value_t = 1.5)]
-    eta: f64,
+    #[command(flatten)]
+    in_place: OverrideArgs,
     /// 256 x 256, four scenes, 0.2 s of timing, a shorter curve of the exact renderer, and no second
     /// frame with everything kept that tells how much time leaving out saves: what CI runs
     #[arg(long)]
@@ -77,15 +75,15 @@ struct AxisArgs {
 
 impl StudyArgs {
     /// What is asked, from a study file or from the words of the command line.
-    pub(in crate::cli) fn spec(&self) -> Result<Spec, Error> {
+    pub(in crate::cli) fn spec(&self, output: Output) -> Result<Spec, Error> {
         let study = self.scenes.iter().find(|name| file::is_study(Path::new(name)));
         match study {
-            Some(path) => self.of_file(Path::new(path)),
-            None => self.of_words(),
+            Some(path) => self.of_file(Path::new(path), output),
+            None => self.of_words(output),
         }
     }
 
-    fn of_words(&self) -> Result<Spec, Error> {
+    fn of_words(&self, output: Output) -> Result<Spec, Error> {
         let mut left_out = Vec::new();
         let mut axes = Axes {
             resolution_px: self.axes.resolution.clone(),
@@ -98,11 +96,18 @@ impl StudyArgs {
                 "one key is given twice after --set; write it once".to_owned(),
             ));
         }
+        if self.in_place.is_some() && self.obj.is_none() && !axes.scene.is_empty() {
+            return Err(Error::Usage(
+                "--set changes a scene's text, and --map and --eta what comes of it\nwrite the map and \
+                 the index in the scene's file"
+                    .to_owned(),
+            ));
+        }
         if axes.resolution_px.is_empty() && self.quick {
             axes.resolution_px.push([256, 256]);
         }
         Ok(Spec {
-            scenes: self.scenes(&mut left_out)?,
+            scenes: self.scenes(output, &mut left_out)?,
             methods: methods(&self.methods, &self.method_files)?,
             left_out,
             axes,
@@ -116,11 +121,13 @@ impl StudyArgs {
         })
     }
 
-    fn of_file(&self, path: &Path) -> Result<Spec, Error> {
+    fn of_file(&self, path: &Path, output: Output) -> Result<Spec, Error> {
         let AxisArgs { params, set, resolution, supersampling } = &self.axes;
         let said_twice = [
             ("another scene", self.scenes.len() > 1),
             ("--method", !self.methods.is_empty() || !self.method_files.is_empty()),
+            ("--map", self.in_place.map.is_some()),
+            ("--eta", self.in_place.eta.is_some()),
             ("--quick", self.quick),
             ("--positions", self.positions.is_some()),
             ("--cut", self.cut.is_some()),
@@ -157,7 +164,11 @@ impl StudyArgs {
         let new: Vec<String> = named.filter(|method| !methods.contains(method)).collect();
         methods.extend(new);
         Ok(Spec {
-            scenes: read.scenes.iter().map(|name| scene(name)).collect::<Result<_, _>>()?,
+            scenes: read
+                .scenes
+                .iter()
+                .map(|name| self.in_place.load(name, output))
+                .collect::<Result<_, _>>()?,
             methods,
             left_out: Vec::new(),
             axes,
@@ -173,18 +184,21 @@ impl StudyArgs {
 
     /// The scenes asked for. Of the default ones, those that this machine cannot
     /// load, for want of a file that set-up fetches, are left out.
-    fn scenes(&self, left_out: &mut Vec<NotDone>) -> Result<Vec<Scene>, Error> {
+    fn scenes(&self, output: Output, left_out: &mut Vec<NotDone>) -> Result<Vec<Scene>, Error> {
         if let Some(obj) = &self.obj {
-            return Ok(vec![Scene::from_obj(obj, self.map.as_deref(), self.eta)?]);
+            let OverrideArgs { map, eta } = &self.in_place;
+            let scene = Scene::from_obj(obj, map.as_deref(), eta.unwrap_or(1.5))?;
+            output.warn(&obj.display().to_string(), &scene.warnings)?;
+            return Ok(vec![scene]);
         }
         if !self.scenes.is_empty() {
-            return self.scenes.iter().map(|name| scene(name)).collect();
+            return self.scenes.iter().map(|name| self.in_place.load(name, output)).collect();
         }
         let mut list = Vec::new();
         let wanted = |b: &&Builtin| if self.quick { b.in_quick_study } else { b.in_default_study };
         for builtin in scenes::builtins().iter().filter(wanted) {
             match builtin.load() {
-                Ok(scene) => list.push(scene),
+                Ok(scene) => list.push(self.in_place.put_into(scene, builtin.name, output)?),
                 Err(reason) => {
                     let (what, reason) = (builtin.name.to_owned(), reason.to_string());
                     left_out.push(NotDone { what, reason });

@@ -1,5 +1,6 @@
 //! Arguments that both renderers share, and the image that comes of them.
 
+use super::scene::frame_is_there;
 use super::values::{image_path, is_png, resolution};
 use crate::Error;
 use crate::cli::output::Output;
@@ -54,18 +55,19 @@ struct Answer<'a> {
 
 impl ViewArgs {
     /// The view that is asked for.
-    pub(in crate::cli) fn view(&self, scene: &Scene) -> View {
+    pub(in crate::cli) fn view(&self, scene: &Scene) -> Result<View, Error> {
+        frame_is_there(scene, self.frame)?;
         let mut layers: Vec<LayerName> =
             self.layers.iter().map(|name| LayerName::from(name.trim())).collect();
         if layers.is_empty() {
             layers.push(LayerName::Radiance);
         }
-        View {
+        Ok(View {
             resolution_px: self.resolution.unwrap_or(scene.camera.resolution_px),
             positions_per_axis: self.positions.unwrap_or(4),
             frame: self.frame,
             layers,
-        }
+        })
     }
 
     /// True if the number of positions was written and not left to the default.
@@ -76,11 +78,20 @@ impl ViewArgs {
 
 impl ImageArgs {
     /// The view with what the image shows among its layers.
-    pub(in crate::cli) fn shown(&self, mut view: View) -> View {
+    ///
+    /// # Errors
+    /// If an exposure is given to an image that has none.
+    pub(in crate::cli) fn shown(&self, mut view: View) -> Result<View, Error> {
+        if self.exposure.is_some() && !is_png(&self.out) {
+            return Err(Error::Usage(
+                "--exposure is that of a .png; an .exr holds radiance as it is\nleave it out"
+                    .to_owned(),
+            ));
+        }
         if is_png(&self.out) && !view.layers.contains(&LayerName::Radiance) {
             view.layers.insert(0, LayerName::Radiance);
         }
-        view
+        Ok(view)
     }
 
     /// Writes the image.

@@ -1,7 +1,7 @@
 //! `snell export SCENE --to FORMAT`: the same scene for another renderer.
 
 use crate::Error;
-use crate::cli::arguments::scene;
+use crate::cli::arguments::scene::{SceneArgs, frame_is_there};
 use crate::cli::output::Output;
 use crate::cli::status::Status;
 use clap::ValueEnum;
@@ -12,8 +12,8 @@ use std::path::PathBuf;
 /// Write a scene for another renderer: anyone's second opinion
 #[derive(clap::Args, Debug)]
 pub(in crate::cli) struct Args {
-    /// Built-in name (see `snell scenes`) or scene file
-    scene: String,
+    #[command(flatten)]
+    scene: SceneArgs,
     /// Form to write
     #[arg(long, value_enum, value_name = "FORMAT")]
     to: Format,
@@ -50,8 +50,9 @@ pub(in crate::cli) fn run(args: &Args, output: Output) -> Result<Status, Error> 
         Format::Pbrt => export::Format::Pbrt,
         Format::Gltf => export::Format::Gltf,
     };
-    let Written { file, notes } =
-        export::write(&scene(&args.scene)?.still(args.frame), format, &args.out)?;
+    let scene = args.scene.load(output)?;
+    frame_is_there(&scene, args.frame)?;
+    let Written { file, notes } = export::write(&scene.still(args.frame), format, &args.out)?;
     if output.json {
         output.object("snell.export/1", &Answer { file, notes })?;
     } else {

@@ -48,7 +48,6 @@ struct Answer<'a> {
     flaw: Option<String>,
     #[serde(flatten)]
     shape: Described,
-    warnings: &'a [String],
     repair: Option<Mended<'a>>,
 }
 
@@ -127,13 +126,14 @@ fn models(file: &Path) -> Result<Vec<(Option<String>, Model)>, Error> {
 }
 
 fn describe(args: &Args, name: Option<String>, model: &Model, output: Output) -> Result<(), Error> {
+    output.warn(&args.file.display().to_string(), &model.warnings)?;
     let found = survey(&model.mesh);
     let mended = args.repair.as_deref().map(|to| mend(args, model, to)).transpose()?;
     if output.json {
         let flaw = found.flaw.as_ref().map(ToString::to_string);
         let (is_solid, shape) = (flaw.is_none(), described(model, &found));
-        let (file, warnings) = (args.file.as_path(), &model.warnings[..]);
-        let answer = Answer { file, name, is_solid, flaw, shape, warnings, repair: mended };
+        let file = args.file.as_path();
+        let answer = Answer { file, name, is_solid, flaw, shape, repair: mended };
         return output.object("snell.mesh/1", &answer);
     }
     if let Some(name) = name {
@@ -251,7 +251,6 @@ fn lines(model: &Model, found: &Survey) -> Vec<String> {
         format!("  {triangles} triangles, volume {volume_m3:.6e} m³{inside}")
     }));
     lines.extend(more(found.parts.len()));
-    lines.extend(model.warnings.iter().map(|warning| format!("warning: {warning}")));
     lines
 }
 

@@ -2,7 +2,7 @@
 
 use crate::Error;
 use crate::cli::arguments::exact::ExactArgs;
-use crate::cli::arguments::scene;
+use crate::cli::arguments::scene::SceneArgs;
 use crate::cli::arguments::values::parameter;
 use crate::cli::arguments::view::ViewArgs;
 use crate::cli::output::{Output, table};
@@ -14,15 +14,15 @@ use serde::Serialize;
 #[derive(clap::Args, Debug)]
 #[command(group = clap::ArgGroup::new("renderer").required(true))]
 pub(in crate::cli) struct Args {
-    /// Built-in name (see `snell scenes`) or scene file
-    scene: String,
+    #[command(flatten)]
+    scene: SceneArgs,
     /// Method to plan, or FILE.wgsl with one of your own
     #[arg(short, long, value_name = "METHOD", group = "renderer",
         conflicts_with_all = ["ExactArgs", "RestrictionArgs"])]
     method: Option<String>,
     /// Parameter of the method, such as a=0.33; repeat for several
     #[arg(short, long = "param", value_name = "NAME=VALUE", value_parser = parameter,
-        requires = "method")]
+        requires = "method", conflicts_with = "reference")]
     parameters: Vec<(String, String)>,
     /// Plan the exact renderer
     #[arg(long, group = "renderer")]
@@ -44,8 +44,8 @@ struct Answer<'a> {
 }
 
 pub(in crate::cli) fn run(args: &Args, output: Output) -> Result<Status, Error> {
-    let scene = scene(&args.scene)?;
-    let view = args.view.view(&scene);
+    let scene = args.scene.load(output)?;
+    let view = args.view.view(&scene)?;
     let (renderer, plan) = match &args.method {
         Some(method) => {
             let parameters = args.parameters.iter().cloned().collect();
@@ -63,7 +63,11 @@ pub(in crate::cli) fn run(args: &Args, output: Output) -> Result<Status, Error> 
         let (scene, total_bytes) = (scene.name.as_str(), plan.bytes());
         output.object("snell.plan/1", &Answer { scene, renderer, total_bytes, plan: &plan })?;
     } else {
-        output.line(&text(&plan).join("\n"))?;
+        let mut lines = text(&plan);
+        let warnings = output.warnings.all();
+        lines.extend((!warnings.is_empty()).then(|| "warnings".to_owned()));
+        lines.extend(warnings.iter().map(|warning| format!("  {warning}")));
+        output.line(&lines.join("\n"))?;
     }
     Ok(Status::Done)
 }

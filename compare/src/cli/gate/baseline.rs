@@ -2,12 +2,12 @@
 
 use crate::Error;
 use crate::cli::arguments::adapter::AdapterArg;
+use crate::cli::arguments::cache::store;
 use crate::cli::output::Output;
 use crate::cli::status::Status;
 use crate::gate::file::pairs::PairGate;
 use crate::gate::file::scenes::SceneGate;
 use crate::gate::run::{Accepted, accept_pairs, accept_scenes};
-use crate::study::cache::{self, Store};
 use crate::support::progress::Progress;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -59,7 +59,7 @@ pub(in crate::cli) fn run(args: &Args, output: Output) -> Result<Status, Error> 
         None => {
             let gate = SceneGate::read(&args.gate)?;
             let gpu = args.adapter.open()?;
-            let store = Store::new(args.cache.clone().unwrap_or_else(cache::default_folder));
+            let store = store(args.cache.as_deref(), output)?;
             let progress = Progress::new("");
             accept_scenes(&gate, &args.only, &gpu, &store, &|cell| progress.now(cell))?
         }

@@ -2,6 +2,7 @@
 
 use crate::Error;
 use crate::cli::arguments::adapter::AdapterArg;
+use crate::cli::arguments::cache::store;
 use crate::cli::output::{Output, table as aligned};
 use crate::cli::status::Status;
 use crate::gate::GateError;
@@ -11,7 +12,6 @@ use crate::gate::output::{command, github, junit, table, triple};
 use crate::gate::run::{Checked, SceneOptions, check_pairs, check_scenes};
 use crate::gate::time::{self, FEWEST_TURNS, Program};
 use crate::gate::verdict::Outcome;
-use crate::study::cache::{self, Store};
 use crate::support::files::{self, FileError};
 use crate::support::progress::Progress;
 use realtime::Gpu;
@@ -72,7 +72,7 @@ pub(in crate::cli) struct Args {
 pub(in crate::cli) fn run(args: &Args, output: Output) -> Result<Status, Error> {
     let checked = match &args.pairs {
         Some(pairs) => check_pairs(&PairGate::read(pairs)?, &args.only)?,
-        None => scenes(args)?,
+        None => scenes(args, output)?,
     };
     answer(&checked, output)?;
     images(&checked, args, output)?;
@@ -86,7 +86,7 @@ pub(in crate::cli) fn run(args: &Args, output: Output) -> Result<Status, Error> 
     Ok(Status::from(checked.outcome()))
 }
 
-fn scenes(args: &Args) -> Result<Checked, Error> {
+fn scenes(args: &Args, output: Output) -> Result<Checked, Error> {
     let gate = SceneGate::read(&args.gate)?;
     let mut by_method: BTreeMap<String, BTreeMap<String, String>> = BTreeMap::new();
     for (method, name, value) in &args.head_param {
@@ -98,7 +98,7 @@ fn scenes(args: &Args) -> Result<Checked, Error> {
     }
     let options = SceneOptions { quick: args.quick, only: args.only.clone(), instead: by_method };
     let gpu = args.adapter.open()?;
-    let store = Store::new(args.cache.clone().unwrap_or_else(cache::default_folder));
+    let store = store(args.cache.as_deref(), output)?;
     let progress = Progress::new("");
     let mut checked = check_scenes(&gate, &options, &gpu, &store, &|cell| progress.now(cell))?;
     times(args, &gate, &gpu, &mut checked, &|cell| progress.now(cell))?;

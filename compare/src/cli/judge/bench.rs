@@ -25,10 +25,10 @@ pub(in crate::cli) struct Args {
     #[arg(long, value_name = "N", conflicts_with_all = ["against", "repetitions"],
         value_parser = clap::value_parser!(u32).range(20..=100_000_000))]
     triangles: Option<u32>,
-    /// How often everything is measured, in turns
-    #[arg(long, value_name = "N", default_value_t = 9,
+    /// How often everything is measured, in turns [default: 9]
+    #[arg(long, value_name = "N",
         value_parser = clap::value_parser!(u16).range(FEWEST as i64..=1000))]
-    repetitions: u16,
+    repetitions: Option<u16>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -36,7 +36,7 @@ enum Other {
     /// Embree 3, compiled here with `CXX` or c++: the same rays and triangles
     Embree,
     /// Mitsuba 3, by the Python that `PYTHON` names or python3: processor time to the same error
-    /// (minutes; --repetitions does not count)
+    /// (minutes)
     Mitsuba,
 }
 
@@ -58,6 +58,12 @@ pub(in crate::cli) fn run(args: &Args, output: Output) -> Result<Status, Error> 
         return footprint(triangles, output);
     }
     if args.against == Some(Other::Mitsuba) {
+        if args.repetitions.is_some() {
+            return Err(Error::Usage(format!(
+                "--repetitions: beside Mitsuba everything is measured {} times\nleave it out",
+                bench::MITSUBA_REPETITIONS
+            )));
+        }
         return mitsuba(output);
     }
     // What is missing is found out before anything is measured.
@@ -70,19 +76,19 @@ pub(in crate::cli) fn run(args: &Args, output: Output) -> Result<Status, Error> 
     threads.dedup();
     let progress = Progress::new("reading meshes");
     let (inputs, left_out) = bench::inputs();
+    let repetitions = args.repetitions.unwrap_or(9);
     let mut measured = Vec::new();
     for (place, input) in inputs.iter().enumerate() {
         progress.now(&format!("tracing {}", input.name));
         let share = |done: f64| progress.at((place as f64 + done) / inputs.len() as f64);
-        let repetitions = usize::from(args.repetitions);
-        measured.push(bench::measure(input, &threads, repetitions, embree.as_ref(), share)?);
+        measured.push(bench::measure(input, &threads, repetitions.into(), embree.as_ref(), share)?);
     }
     drop(progress);
     left_out.iter().for_each(|sentence| Output::note(sentence));
     let machine = Machine {
         processor: &bench::processor(),
         threads: &threads,
-        repetitions: args.repetitions,
+        repetitions,
         confidence: 0.95,
         image_px: bench::IMAGE_PX,
         eta: bench::ETA,

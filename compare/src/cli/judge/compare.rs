@@ -56,8 +56,6 @@ struct Line<'a> {
     measurement: &'a Measurement,
     /// What transparent pixels lie over; `none` where both files are opaque.
     alpha: &'static str,
-    /// What the files say of their pixels and was not obeyed.
-    warnings: &'a [String],
 }
 
 pub(in crate::cli) fn run(args: &Args, output: Output) -> Result<Status, Error> {
@@ -65,12 +63,11 @@ pub(in crate::cli) fn run(args: &Args, output: Output) -> Result<Status, Error> 
     let question = Question { flip_exposures, alpha, display_ev };
     let Comparison { judgement, has_alpha, warnings } =
         compare_files(&args.reference, &args.test, &question)?;
-    warnings.iter().for_each(|warning| Output::note(&format!("warning: {warning}")));
+    output.warnings.tell(warnings)?;
     let alpha = if has_alpha { alpha.name() } else { "none" };
     if output.json {
         for measurement in &judgement.measurements {
-            let warnings = &warnings;
-            output.object("snell.measurement/1", &Line { measurement, alpha, warnings })?;
+            output.object("snell.measurement/1", &Line { measurement, alpha })?;
         }
     } else {
         output.line(&table(&text(&judgement.measurements)))?;

@@ -3,11 +3,12 @@
 use crate::Error;
 use crate::cli::Status;
 use crate::cli::arguments::adapter::AdapterArg;
+use crate::cli::arguments::cache::store;
 use crate::cli::arguments::study::StudyArgs;
 use crate::cli::output::{Output, table};
 use crate::results::{NotDone, ResultRow, Study};
-use crate::study::cache::{self, Store};
 use crate::study::{self, Estimate, summary};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Render scenes exactly and approximately, and report how far apart they are and what each costs
@@ -27,9 +28,9 @@ pub(in crate::cli) struct Args {
 }
 
 pub(in crate::cli) fn run(args: &Args, output: Output) -> Result<Status, Error> {
-    let spec = args.study.spec()?;
+    let spec = args.study.spec(output)?;
     let gpu = args.adapter.open()?;
-    let store = Store::new(args.cache.clone().unwrap_or_else(cache::default_folder));
+    let store = store(args.cache.as_deref(), output)?;
     let announce = |estimate: &Estimate| Output::note(&format!("snell study: {estimate}"));
     let command = command_line(std::env::args());
     let (study, rows) = study::run(&spec, &gpu, &store, &args.out, &command, announce)?;
@@ -47,6 +48,10 @@ pub(in crate::cli) fn answer(
     if output.json {
         for row in rows {
             output.own_object(row)?;
+        }
+        if !output.warnings.all().is_empty() {
+            // Rows are flat, and have no place for them.
+            output.object("snell.study.warnings/1", &BTreeMap::<&str, &str>::new())?;
         }
         return Ok(Status::Done);
     }

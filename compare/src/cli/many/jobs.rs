@@ -20,7 +20,7 @@ pub(in crate::cli) struct Args {
 }
 
 pub(in crate::cli) fn run(args: &Args, output: Output) -> Result<Status, Error> {
-    let spec = args.study.spec()?;
+    let spec = args.study.spec(output)?;
     let grid = expand(&spec)?;
     check(&spec, &grid)?;
     for job in grid.jobs() {

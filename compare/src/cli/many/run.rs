@@ -33,7 +33,7 @@ pub(in crate::cli) struct Args {
 }
 
 pub(in crate::cli) fn run(args: &Args, output: Output) -> Result<Status, Error> {
-    let spec = args.study.spec()?;
+    let spec = args.study.spec(output)?;
     let share = match &args.shard {
         Some(shard) => shard.clone(),
         None if args.jobs.is_empty() => Share::All,

@@ -1,7 +1,7 @@
 //! `snell caustics SCENE --receiver R -o FILE`: light through glass on a surface.
 
 use crate::Error;
-use crate::cli::arguments::scene;
+use crate::cli::arguments::scene::{SceneArgs, frame_is_there};
 use crate::cli::arguments::values::{exr_path, resolution};
 use crate::cli::output::Output;
 use crate::cli::status::Status;
@@ -17,8 +17,8 @@ use std::path::{Path, PathBuf};
 /// object, and write the irradiance there
 #[derive(clap::Args, Debug)]
 pub(in crate::cli) struct Args {
-    /// Built-in name (see `snell scenes`), or a .toml file; it needs a [[light]]
-    scene: String,
+    #[command(flatten)]
+    scene: SceneArgs,
     /// Diffuse object by name, or by its number in the file from 0: a box, whose upper face (+y)
     /// is the map, or two triangles that make a parallelogram
     #[arg(long, value_name = "NAME|INDEX")]
@@ -62,7 +62,8 @@ struct Answer<'a> {
 }
 
 pub(in crate::cli) fn run(args: &Args, output: Output) -> Result<Status, Error> {
-    let scene = scene(&args.scene)?;
+    let scene = args.scene.load_without_map(output)?;
+    frame_is_there(&scene, args.frame)?;
     let receiver = find(&scene, &args.receiver)?;
     let request = CausticsRequest {
         receiver,

@@ -2,7 +2,7 @@
 
 use crate::Error;
 use crate::cli::arguments::adapter::AdapterArg;
-use crate::cli::arguments::scene;
+use crate::cli::arguments::scene::SceneArgs;
 use crate::cli::arguments::values::parameter;
 use crate::cli::arguments::view::{ImageArgs, ViewArgs};
 use crate::cli::output::Output;
@@ -12,8 +12,8 @@ use realtime::{Filter, Keep, Request, Timing};
 /// Render one approximation of a scene on the GPU
 #[derive(clap::Args, Debug)]
 pub(in crate::cli) struct Args {
-    /// Built-in name (see `snell scenes`) or scene file
-    scene: String,
+    #[command(flatten)]
+    scene: SceneArgs,
     /// Approximation (see `snell methods`), or FILE.wgsl with one of your own
     #[arg(short, long, value_name = "METHOD")]
     method: String,
@@ -40,9 +40,9 @@ pub(in crate::cli) struct Args {
 }
 
 pub(in crate::cli) fn run(args: &Args, output: Output) -> Result<Status, Error> {
-    let scene = scene(&args.scene)?;
+    let scene = args.scene.load(output)?;
     let request = Request {
-        view: args.image.shown(args.view.view(&scene)),
+        view: args.image.shown(args.view.view(&scene)?)?,
         method: args.method.clone(),
         parameters: args.parameters.iter().cloned().collect(),
         filter: if args.hardware_filter { Filter::Hardware } else { Filter::Manual },

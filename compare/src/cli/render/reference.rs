@@ -3,7 +3,7 @@
 use super::{caustics, progressive};
 use crate::Error;
 use crate::cli::arguments::exact::ExactArgs;
-use crate::cli::arguments::scene;
+use crate::cli::arguments::scene::SceneArgs;
 use crate::cli::arguments::view::{ImageArgs, ViewArgs};
 use crate::cli::output::Output;
 use crate::cli::status::Status;
@@ -16,8 +16,8 @@ use std::time::Instant;
 #[derive(clap::Args, Debug)]
 #[command(after_long_help = layers())]
 pub(in crate::cli) struct Args {
-    /// Built-in name (see `snell scenes`), or a .toml, .gltf or .glb file
-    scene: String,
+    #[command(flatten)]
+    scene: SceneArgs,
     #[command(flatten)]
     image: ImageArgs,
     #[command(flatten)]
@@ -46,8 +46,8 @@ struct RunningArgs {
 
 pub(in crate::cli) fn run(args: &Args, output: Output) -> Result<Status, Error> {
     let started = Instant::now();
-    let scene = scene(&args.scene)?;
-    let view = args.image.shown(args.view.view(&scene));
+    let scene = args.scene.load(output)?;
+    let view = args.image.shown(args.view.view(&scene)?)?;
     let mut request = args.exact.request(view, args.view.positions_given())?;
     if let Some(text) = &args.caustics {
         if request.level != Level::R2 {

@@ -12,15 +12,21 @@ use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use tempfile::TempDir;
 
 const CHECKSUMS: &str = "checksums.json";
 /// Folder of files that are locked while a result is being made.
 const TURNS: &str = ".turns";
+pub(in crate::study) const CANNOT_BE_WRITTEN: &str =
+    "the cache cannot be written; name another folder with --cache";
 
 /// A folder of results by content id.
 #[derive(Clone, Debug)]
 pub struct Store {
     root: PathBuf,
+    /// Removes the folder with the last store that uses it.
+    _temporary: Option<Arc<TempDir>>,
 }
 
 /// What the store knows about an id.
@@ -39,7 +45,19 @@ impl Store {
     /// A store in a folder, which is made when the first result is stored.
     #[must_use]
     pub fn new(root: PathBuf) -> Self {
-        Self { root }
+        Self { root, _temporary: None }
+    }
+
+    /// A store in a folder of its own that no other user can read and that is
+    /// removed at the end.
+    ///
+    /// # Errors
+    /// If there is no place for temporary files.
+    pub fn for_this_run() -> Result<Self, Error> {
+        let place = std::env::temp_dir();
+        let folder = tempfile::Builder::new().prefix("snell-").tempdir();
+        let folder = folder.map_err(FileError::of(&place, CANNOT_BE_WRITTEN))?;
+        Ok(Self { root: folder.path().to_owned(), _temporary: Some(Arc::new(folder)) })
     }
 
     /// The folder of the whole store.
@@ -61,7 +79,7 @@ impl Store {
     /// If the disk does not take a file of no bytes.
     pub fn turn(&self, id: &Id) -> Result<fs::File, Error> {
         let folder = self.root.join(TURNS);
-        let failed = FileError::of(&folder, "the cache cannot be written");
+        let failed = FileError::of(&folder, CANNOT_BE_WRITTEN);
         fs::create_dir_all(&folder).map_err(&failed)?;
         let file = fs::File::create(folder.join(id.as_str())).map_err(&failed)?;
         file.lock().map_err(&failed)?;
@@ -94,7 +112,7 @@ impl Store {
         id: &Id,
         fill: impl FnOnce(&Path) -> Result<(), Error>,
     ) -> Result<PathBuf, Error> {
-        let unwritten = FileError::of(&self.root, "the cache cannot be written");
+        let unwritten = FileError::of(&self.root, CANNOT_BE_WRITTEN);
         let failed = |error| Error::from(unwritten(error));
         let folder = self.root.join(id.as_str());
         let stored = whole::replace(&folder, failed, |partial| {

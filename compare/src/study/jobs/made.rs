@@ -1,7 +1,7 @@
 //! A finished job: an image file, and everything else the renderer told.
 
 use crate::Error;
-use crate::study::cache::{Found, Id, Store};
+use crate::study::cache::{CANNOT_BE_WRITTEN, Found, Id, Store};
 use crate::support::files::FileError;
 use scenes::rendering::{Pass, Provenance};
 use scenes::{Layers, Plan, Rendering};
@@ -60,7 +60,7 @@ impl Made {
             scenes::image::write_exr(&folder.join(IMAGE), &layers)?;
             let text = serde_json::to_vec(&facts).map_err(std::io::Error::from);
             text.and_then(|text| fs::write(folder.join(FACTS), text))
-                .map_err(FileError::of(folder, "the cache cannot be written"))?;
+                .map_err(FileError::of(folder, CANNOT_BE_WRITTEN))?;
             Ok(())
         })?;
         Self::read(id, &folder)

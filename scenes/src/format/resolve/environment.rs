@@ -42,21 +42,9 @@ pub(super) fn resolve(
     let (lat_long, said) = image::read_lat_long(&base.join(name))
         .map_err(|error| At { span, problem: Problem::Image(error) })?;
     warnings.extend(said);
-    let [width, height] = lat_long.size_px;
-    if width != 2 * height {
-        warnings.push(format!(
-            "{name} is {width} x {height} pixels; a lat-long map is twice as wide as high, and \
-             this one is stretched to fit"
-        ));
-    }
     let repair = Repair { keep_negative: text.keep_negative };
     let map = Map::from_lat_long(name, lat_long, rotation_deg, cube_size_px, repair);
-    if map.repaired_texels > 0 {
-        warnings.push(format!(
-            "{name}: {} texels were NaN, infinite or negative and have been repaired",
-            map.repaired_texels
-        ));
-    }
+    warnings.extend(map.warnings());
     Ok((Environment::Map(Arc::new(map)), None))
 }
 
