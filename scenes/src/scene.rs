@@ -1,5 +1,6 @@
 //! A scene, resolved and checked: what both renderers receive.
 
+use crate::topology::{NotABody, must_be_body};
 use crate::{Camera, Environment, Medium, MediumId, Shape};
 use glam::{DAffine3, DVec3};
 use std::path::PathBuf;
@@ -228,6 +229,15 @@ impl Scene {
     #[must_use]
     pub fn time_s(&self, frame: u32) -> f64 {
         f64::from(frame) * self.sequence.seconds_per_frame
+    }
+
+    /// Holds every transparent object to have an inside, at frame 0.
+    ///
+    /// # Errors
+    /// The first that has none, why, and how to mend it.
+    pub fn must_have_bodies(&self) -> Result<(), NotABody> {
+        let mut transparent = self.objects.iter().filter(|object| self.medium_of(object).is_some());
+        transparent.try_for_each(|object| must_be_body(&object.name, object.shape_at(0.0).mesh()))
     }
 
     /// Axis-aligned box around every bounded object at frame 0, world space;

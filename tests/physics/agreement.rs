@@ -6,6 +6,7 @@
 use glam::DVec3;
 use realtime::Keep;
 use reference::Level;
+use scenes::layer::flag;
 use scenes::{Environment, Eta, LayerName, Scene};
 use test_support::{angle, vectors, view};
 
@@ -22,9 +23,14 @@ fn approximate(gpu: &realtime::Gpu, scene: &Scene, method: &str, layer: &LayerNa
     vectors(&rendering.layers, layer)
 }
 
-fn exact(scene: &Scene, layer: &LayerName) -> Vec<DVec3> {
-    let request = reference::Request::new(view(SIZE_PX, 1, std::slice::from_ref(layer)), Level::R0);
-    vectors(&reference::render(scene, &request).unwrap().layers, layer)
+/// A direction per pixel, and where interpolated normals were replaced on the way.
+fn exact(scene: &Scene, layer: &LayerName) -> (Vec<DVec3>, Vec<bool>) {
+    let view = view(SIZE_PX, 1, &[layer.clone(), LayerName::Flags]);
+    let layers =
+        reference::render(scene, &reference::Request::new(view, Level::R0)).unwrap().layers;
+    let flags = &layers.get(&LayerName::Flags).unwrap().data;
+    let replaced = flags.iter().map(|flags| *flags as u32 & flag::GEOMETRIC_NORMAL != 0);
+    (vectors(&layers, layer), replaced.collect())
 }
 
 /// Angles in radians where both have a direction, and how many have only one.
@@ -50,13 +56,20 @@ fn bodies() -> Vec<Scene> {
 
 /// Snell's law at the first surface: within 3e-5 rad in 99.5 % of pixels. The
 /// others lie at silhouettes, creases and grazing angles, where 32-bit positions
-/// pick another triangle or the last bits of the cosine decide.
+/// pick another triangle or the last bits of the cosine decide. Left out are the few
+/// chains on which a normal was replaced: one that interpolated normals would trap
+/// starts again, its first event included, which the GPU cannot know.
 #[test]
 fn one_interface_is_the_exact_direction_after_the_first_event() {
     let gpu = realtime::Gpu::open(None).unwrap();
     for scene in bodies() {
         let fast = approximate(&gpu, &scene, "one-interface", &LayerName::First);
-        let slow = exact(&scene, &LayerName::First);
+        let (slow, replaced) = exact(&scene, &LayerName::First);
+        let met = slow.iter().filter(|first| **first != DVec3::ZERO).count();
+        let left_out = replaced.iter().filter(|replaced| **replaced).count();
+        assert!(left_out * 20 <= met, "{}: {left_out} of {met} left out", scene.name);
+        let kept = fast.into_iter().zip(slow).zip(replaced).filter(|(_, replaced)| !replaced);
+        let (fast, slow): (Vec<_>, Vec<_>) = kept.map(|(pair, _)| pair).unzip();
         let (angles, one) = differences(&fast, &slow);
         let close = angles.iter().filter(|angle| **angle < 3e-5).count();
         assert!(angles.len() > 500, "{}: {} pixels", scene.name, angles.len());
@@ -82,7 +95,7 @@ fn the_comparison_rejects_another_direction() {
     let gpu = realtime::Gpu::open(None).unwrap();
     let scene = &bodies()[0];
     let fast = approximate(&gpu, scene, "dx7", &LayerName::First);
-    let (angles, _) = differences(&fast, &exact(scene, &LayerName::First));
+    let (angles, _) = differences(&fast, &exact(scene, &LayerName::First).0);
     let close = angles.iter().filter(|angle| **angle < 3e-5).count();
     assert!(close * 20 < angles.len(), "{close} of {}", angles.len());
 }

@@ -21,6 +21,9 @@ pub enum Error {
     /// A scene that cannot be read.
     #[error(transparent)]
     Scene(#[from] scenes::Error),
+    /// A transparent object without an inside.
+    #[error(transparent)]
+    Body(#[from] scenes::topology::NotABody),
     /// A scene that cannot be written for another renderer.
     #[error(transparent)]
     Export(#[from] scenes::export::ExportError),

@@ -31,6 +31,12 @@ impl Choices {
         changed
     }
 
+    /// What is stood for.
+    #[cfg(test)]
+    pub(crate) fn needs(&self) -> impl Iterator<Item = &str> {
+        self.0.keys().map(String::as_str)
+    }
+
     /// Files and everything that they need, what is needed first.
     pub(crate) fn closure(&self, roots: &[&str]) -> Result<Vec<Source>, Error> {
         let mut found = Vec::new();

@@ -77,10 +77,13 @@ impl StudyArgs {
     /// What is asked, from a study file or from the words of the command line.
     pub(in crate::cli) fn spec(&self, output: Output) -> Result<Spec, Error> {
         let study = self.scenes.iter().find(|name| file::is_study(Path::new(name)));
-        match study {
+        let spec = match study {
             Some(path) => self.of_file(Path::new(path), output),
             None => self.of_words(output),
-        }
+        }?;
+        // Said before anything is made, though both renderers would refuse too.
+        spec.scenes.iter().try_for_each(scenes::Scene::must_have_bodies)?;
+        Ok(spec)
     }
 
     fn of_words(&self, output: Output) -> Result<Spec, Error> {
