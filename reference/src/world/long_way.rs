@@ -114,8 +114,7 @@ impl World {
         let (mut rest, mut from_t) = (crossings, 0.0);
         while let Some(first) = rest.first() {
             if first.t == f64::INFINITY {
-                // A body without end: light comes through it from infinity, and
-                // there is no surface there.
+                // A body without end, and no surface there.
                 scratch.note::<W, LENGTHS>(indices, &winding, f64::INFINITY);
                 return End::Environment;
             }
@@ -133,12 +132,7 @@ impl World {
             }
             scratch.note::<W, LENGTHS>(indices, &winding, t - from_t);
             let group = &rest[..self.together(line, rest)];
-            let mut beyond = winding.clone();
-            for crossing in group {
-                if let Some(class) = self.class_of(crossing) {
-                    beyond.cross(class, crossing.entering);
-                }
-            }
+            let beyond = self.beyond(group, &winding);
             if indices.eta(&winding) != indices.eta(&beyond) {
                 // The surface of the medium that begins here, or else ends here.
                 let of = |w: &W| group.iter().find(|c| self.class_of(c) == w.top());
@@ -152,6 +146,17 @@ impl World {
             scratch.counters.left_inside += 1;
         }
         End::Environment
+    }
+
+    /// The winding behind crossings that are one.
+    fn beyond<W: Winding>(&self, group: &[Crossing], winding: &W) -> W {
+        let mut beyond = winding.clone();
+        for crossing in group {
+            if let Some(class) = self.class_of(crossing) {
+                beyond.cross(class, crossing.entering);
+            }
+        }
+        beyond
     }
 
     /// How many of the first of ordered crossings rounding cannot tell apart.
