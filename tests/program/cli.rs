@@ -116,14 +116,28 @@ fn a_plan_says_what_runs_and_what_is_left_out() {
     }
 }
 
-/// The exact image of a lossless ball in uniform light 1 is 1 everywhere.
+/// The exact image of a lossless ball in uniform light 1 is 1 everywhere: so the file
+/// says, and so says a comparison with undeviated light; glass that absorbs differs.
 #[test]
 fn the_reference_writes_an_image_that_can_be_compared() {
     let folder = tempfile::tempdir().unwrap();
-    let image = folder.path().join("exact.exr").to_string_lossy().into_owned();
-    done(&format!("reference uniform-ball -o {image} --resolution 24 --positions 1 --cut 1e-8"));
-    let scores = objects(&format!("compare {image} {image}"));
-    assert_eq!(scores[0]["n"], 24 * 24);
+    let file = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let size = "--resolution 24 --positions 1";
+    let (exact, straight, other) = (file("exact.exr"), file("straight.exr"), file("other.exr"));
+    done(&format!("reference uniform-ball -o {exact} {size} --cut 1e-8"));
+    let image = scenes::image::read(std::path::Path::new(&exact)).unwrap();
+    let radiance = &image.get(&scenes::LayerName::Radiance).unwrap().data;
+    assert!(radiance.iter().all(|value| (value - 1.0).abs() < 1e-6));
+    done(&format!("realtime uniform-ball --method undeviated -o {straight} {size}"));
+    done(&format!("reference ice-cube -o {other} {size}"));
+    let mae = |test: &str| {
+        let scores = objects(&format!("compare {exact} {test}"));
+        let found = scores.iter().find(|score| score["metric"] == "mae").unwrap();
+        assert_eq!(found["n"], 24 * 24);
+        found["value"].as_f64().unwrap()
+    };
+    assert!(mae(&straight) < 1e-6, "{}", mae(&straight));
+    assert!(mae(&other) > 0.05, "{}", mae(&other));
 }
 
 /// What is missing is said before anything is measured, and nothing is answered.

@@ -62,15 +62,22 @@ fn a_chain_that_is_cut_off_is_flagged() {
     assert!(share(&scene, &asked(&scene, "multi", &[]), flag::CAP) < 0.05);
 }
 
+/// Reflected totally from side to side, a ray ends where the cap is, or where no layer
+/// shows what it meets; each has its own flag, and a body that bends weakly has no caps.
 #[test]
-fn a_ray_that_never_leaves_is_flagged() {
-    let scene = scene_of(
-        Shape::Box { half_extent_m: DVec3::splat(0.5) },
-        2.4,
-        perspective(DVec3::new(2.0, 1.3, 2.4), SIZE_PX),
-    );
-    let request = asked(&scene, "multi", &[("tir", "reflect")]);
-    assert!(share(&scene, &request, flag::LOST | flag::CAP) > 0.01);
+fn a_ray_that_does_not_get_out_is_flagged_by_why() {
+    let cube = |eta| {
+        let shape = Shape::Box { half_extent_m: DVec3::splat(0.5) };
+        scene_of(shape, eta, perspective(DVec3::new(2.0, 1.3, 2.4), SIZE_PX))
+    };
+    let share = |scene: &Scene, bit| {
+        share(scene, &asked(scene, "multi", &[("tir", "reflect")]), bit)
+    };
+    let (strong, weak) = (cube(2.4), cube(1.01));
+    let (capped, lost) = (share(&strong, flag::CAP), share(&strong, flag::LOST));
+    assert!(capped > 0.005 && lost > 0.001, "{capped} {lost}");
+    assert_eq!(share(&weak, flag::CAP), 0.0);
+    assert!(share(&weak, flag::LOST) < 0.5 * lost);
 }
 
 #[test]
