@@ -70,9 +70,8 @@ fn a_ray_that_does_not_get_out_is_flagged_by_why() {
         let shape = Shape::Box { half_extent_m: DVec3::splat(0.5) };
         scene_of(shape, eta, perspective(DVec3::new(2.0, 1.3, 2.4), SIZE_PX))
     };
-    let share = |scene: &Scene, bit| {
-        share(scene, &asked(scene, "multi", &[("tir", "reflect")]), bit)
-    };
+    let share =
+        |scene: &Scene, bit| share(scene, &asked(scene, "multi", &[("tir", "reflect")]), bit);
     let (strong, weak) = (cube(2.4), cube(1.01));
     let (capped, lost) = (share(&strong, flag::CAP), share(&strong, flag::LOST));
     assert!(capped > 0.005 && lost > 0.001, "{capped} {lost}");

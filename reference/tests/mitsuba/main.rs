@@ -159,8 +159,7 @@ fn a_cup_that_traps_light_looks_as_in_mitsuba() {
 
 /// The cup with something perturbed, judged as its twin: the same mask, batches and paths.
 fn perturbed(what: &str, edges: u32, perturb: impl FnOnce(&mut Scene)) -> Agreement {
-    static MASK: LazyLock<Vec<bool>> =
-        LazyLock::new(|| flagged(&scene("cup_flat", Normals::Flat)));
+    static MASK: LazyLock<Vec<bool>> = LazyLock::new(|| flagged(&scene("cup_flat", Normals::Flat)));
     let mut scene = scene("cup_flat", Normals::Flat);
     perturb(&mut scene);
     let found = compare(&ours(&scene, 16, edges), "cup_flat", &MASK);
