@@ -11,7 +11,7 @@ use std::path::Path;
 fn page(name: &str) -> (Report, String) {
     let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     study(&directory);
-    let report = report::write(&directory).unwrap();
+    let report = report::write(&directory, report::Options::default()).unwrap();
     let html = std::fs::read_to_string(&report.html).unwrap();
     (report, html)
 }
@@ -19,7 +19,7 @@ fn page(name: &str) -> (Report, String) {
 #[test]
 fn a_page_holds_tables_plots_and_pictures_and_needs_no_network() {
     let (report, html) = page("whole-report");
-    assert_eq!(html.matches("<svg").count(), 6, "three plots per scene");
+    assert_eq!(html.matches("class=\"plot\"><svg").count(), 6, "three plots per scene");
     assert!(html.matches("src=\"data:image/png;base64,").count() >= 12);
     for address in ["http://", "https://", "src=\"/", "@import"] {
         let foreign = html.replace("http://www.w3.org/2000/svg", "");
@@ -38,7 +38,10 @@ fn a_page_holds_tables_plots_and_pictures_and_needs_no_network() {
         "a stored FLIP map and a computed one differ"
     );
     for path in &report.pictures {
-        assert!(std::fs::metadata(path).unwrap().len() > 100, "{}", path.display());
+        let bytes = std::fs::read(path).unwrap();
+        assert!(bytes.len() > 100, "{}", path.display());
+        let is_plot = path.extension().is_some_and(|end| end == "svg");
+        assert!(!is_plot || !String::from_utf8(bytes).unwrap().contains("var("), "{path:?}");
     }
 }
 
@@ -69,9 +72,9 @@ fn the_spreadsheet_has_a_line_per_row() {
 #[test]
 fn an_incomplete_directory_is_refused_by_name() {
     let directory = tempfile::tempdir().unwrap();
-    let error = report::write(directory.path()).unwrap_err().to_string();
+    let error = report::write(directory.path(), report::Options::default()).unwrap_err().to_string();
     assert!(error.contains("results.jsonl"), "{error}");
     write_rows(directory.path(), &[]).unwrap();
-    let error = report::write(directory.path()).unwrap_err().to_string();
+    let error = report::write(directory.path(), report::Options::default()).unwrap_err().to_string();
     assert!(error.contains("study.json"), "{error}");
 }

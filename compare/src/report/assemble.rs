@@ -4,8 +4,9 @@ use super::number::{bytes, digits, duration};
 use super::numbers::{Numbers, is_better, usable};
 use super::page::{Cell, MethodView, Page, SceneView};
 use super::pictures::SceneImages;
+use super::plot::marker_image;
 use super::runs::{MERITS, display_name, find, methods_of, styles};
-use super::{ReportError, folder, scene_plots, verdict, viewer};
+use super::{Options, ReportError, citations, folder, scene_plots, verdict, viewer};
 use crate::metric::{Better, Mask, Metric};
 use crate::results::{REFERENCE, ResultRow, RowKind, Run, SceneEntry, Study, Validity, saved_ms};
 use rayon::prelude::*;
@@ -19,15 +20,20 @@ pub(super) fn assemble(
     directory: &Path,
     study: Study,
     rows: &[ResultRow],
+    options: Options,
 ) -> Result<Page, ReportError> {
     let numbers = Numbers::new(rows);
     let styles = styles(&study);
-    let factor = viewer::shrinking(&study);
+    let factor = viewer::shrinking(&study, options.data_in_page_bytes);
+    let full = factor > 1 && !options.single_file;
     let one_scene = |(index, entry): (usize, &SceneEntry)| {
         let images = SceneImages::read(directory, &study, entry)?;
         let mut view = scene_view(index, entry, &study, &numbers, &styles);
         view.ev = images.ev;
         view.data = viewer::data(&view, &images, factor);
+        if full {
+            viewer::write_full(directory, &view, &images)?;
+        }
         folder::place(directory, &mut view, images.pictures())?;
         Ok(view)
     };
@@ -36,10 +42,11 @@ pub(super) fn assemble(
     let scenes = scenes?;
     Ok(Page {
         headline: verdict::sentences(&study, &numbers),
-        columns: MERITS.map(|(_, head, unit)| (head, unit)).to_vec(),
+        columns: MERITS.map(|(metric, head, unit)| (head, unit, arrow(metric))).to_vec(),
+        methods: citations::methods(&styles),
         metrics: descriptions(),
-        viewer_json: viewer::contents(&scenes),
-        size_note: viewer::note(factor),
+        viewer_json: viewer::contents(&scenes, factor, full),
+        size_note: viewer::note(factor, options.single_file),
         scenes,
         study,
     })
@@ -97,7 +104,7 @@ fn method_view(
         (left.what.clone(), left.reason.clone(), saved)
     });
     MethodView {
-        style: style % 7,
+        marker: marker_image(style),
         cells: MERITS.map(|(metric, ..)| cell(metric, find(numbers, run, metric))).to_vec(),
         time: Cell {
             text: time.and_then(usable).map_or("—".to_owned(), duration),
@@ -198,6 +205,15 @@ fn mark_best(views: &mut [MethodView], runs: &[&Run], numbers: &Numbers, study: 
     let fastest = (0..runs.len()).filter_map(time).reduce(f64::min);
     for (i, view) in views.iter_mut().enumerate() {
         view.time.best = fastest.is_some() && time(i) == fastest;
+    }
+}
+
+/// Which way is better.
+fn arrow(metric: Metric) -> &'static str {
+    match metric.describe().better {
+        Better::Lower => "↓",
+        Better::Higher => "↑",
+        Better::NearZero => "→ 0",
     }
 }
 

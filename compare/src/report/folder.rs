@@ -4,6 +4,7 @@
 use super::ReportError;
 use super::page::{SceneView, Shown};
 use super::pictures::{MethodPictures, Picture, ScenePictures, contact_sheet};
+use crate::report::plot::literal;
 use crate::support::files;
 use std::path::Path;
 
@@ -20,7 +21,7 @@ pub(super) fn place(
     let name = file_name(&scene.entry.name);
     for plot in &scene.plots {
         let path = directory.join("plots").join(format!("{name}-{}.svg", plot.kind));
-        files::write(&path, plot.svg.as_bytes())?;
+        files::write(&path, literal(&plot.svg).as_bytes())?;
         scene.files.push(path);
     }
     let Some(pictures) = pictures else { return Ok(()) };

@@ -2,6 +2,7 @@
 //! spreadsheet, pictures.
 
 mod assemble;
+mod citations;
 mod folder;
 pub mod number;
 mod numbers;
@@ -51,6 +52,21 @@ pub struct Report {
     pub pictures: Vec<PathBuf>,
 }
 
+/// What may be chosen of a report.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Options {
+    /// True if nothing lies beside the page: of a large study it holds means of pixels.
+    pub single_file: bool,
+    /// What the viewer's data may take in the page before they are shrunk, bytes.
+    pub data_in_page_bytes: f64,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { single_file: false, data_in_page_bytes: 40e6 }
+    }
+}
+
 /// Most places of a study that a page shows.
 const MOST_SHOWN: usize = 8;
 
@@ -75,14 +91,14 @@ fn shown(mut study: Study) -> Study {
 
 /// Makes `report.html`, `report.md`, `results.csv`, `wide.csv`, `plots/*.svg` and
 /// `pictures/*.png` from `results.jsonl`, `study.json` and the images that it
-/// names, all in `directory`.
+/// names, all in `directory`; for a page that would become too large also `data/*.js`.
 ///
 /// # Errors
 /// When the results or an image cannot be read or a file cannot be written.
-pub fn write(directory: &Path) -> Result<Report, ReportError> {
+pub fn write(directory: &Path, options: Options) -> Result<Report, ReportError> {
     let rows = read_rows(directory)?;
     let study = read_study(directory)?;
-    let page = assemble::assemble(directory, shown(study), &rows)?;
+    let page = assemble::assemble(directory, shown(study), &rows, options)?;
     let report = Report {
         html: directory.join("report.html"),
         markdown: directory.join("report.md"),

@@ -1,5 +1,6 @@
 //! What a report shows, ready for its templates: text and numbers, no logic.
 
+use super::citations::MethodAbout;
 use super::number;
 use super::pictures::MethodPictures;
 use crate::results::{NotDone, SceneEntry, Study};
@@ -24,8 +25,8 @@ pub(super) struct Cell {
 pub(super) struct MethodView {
     /// Method id, with the parameters that tell two runs of one method apart.
     pub(super) name: String,
-    /// Marker and colour in plots; the same method has the same in all scenes.
-    pub(super) style: usize,
+    /// Marker in plots, as SVG; the same method has the same in all scenes.
+    pub(super) marker: String,
     /// One per column of the verdict table.
     pub(super) cells: Vec<Cell>,
     /// Time of a frame.
@@ -107,10 +108,24 @@ pub(super) struct PlotView {
 /// HDR data of one scene for the viewer.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct SceneData {
-    /// Width and height of the data, pixels.
-    pub(super) size_px: [usize; 2],
+    /// Width and height of the image files, pixels.
+    pub(super) file_px: [usize; 2],
     /// Image by image, the exact one first.
     pub(super) images: Vec<ImageData>,
+}
+
+impl SceneData {
+    /// Names, without their prefix, and text of what there is.
+    pub(super) fn blocks(&self, scene: usize) -> impl Iterator<Item = (String, &str)> {
+        self.images.iter().enumerate().flat_map(move |(i, image)| {
+            let kinds =
+                [("radiance", &image.radiance), ("flip", &image.flip), ("angle", &image.angle)];
+            kinds
+                .into_iter()
+                .filter(|(_, text)| !text.is_empty())
+                .map(move |(kind, text)| (format!("{scene}-{i}-{kind}"), text.as_str()))
+        })
+    }
 }
 
 /// HDR data of one image, each a block of base64 text.
@@ -134,8 +149,10 @@ pub(super) struct Page {
     pub(super) study: Study,
     /// The verdict in sentences.
     pub(super) headline: Vec<String>,
-    /// Heads of the verdict table's columns: name and unit.
-    pub(super) columns: Vec<(&'static str, &'static str)>,
+    /// Heads of the verdict table's columns: name, unit, which way is better.
+    pub(super) columns: Vec<(&'static str, &'static str, &'static str)>,
+    /// The methods of the study.
+    pub(super) methods: Vec<MethodAbout>,
     /// Scenes.
     pub(super) scenes: Vec<SceneView>,
     /// Name, formula, unit, range, direction and source of each metric.
@@ -166,19 +183,9 @@ impl Page {
 
     /// Blocks of the viewer with their element ids.
     pub(super) fn blocks(&self) -> Vec<(String, &str)> {
-        let mut blocks = Vec::new();
-        for scene in &self.scenes {
-            for (i, image) in scene.data.iter().flat_map(|data| data.images.iter().enumerate()) {
-                for (kind, text) in
-                    [("radiance", &image.radiance), ("flip", &image.flip), ("angle", &image.angle)]
-                {
-                    if !text.is_empty() {
-                        blocks.push((format!("data-{}-{i}-{kind}", scene.index), text.as_str()));
-                    }
-                }
-            }
-        }
-        blocks
+        let all = self.scenes.iter().filter_map(|scene| Some((scene.index, scene.data.as_ref()?)));
+        let named = all.flat_map(|(index, data)| data.blocks(index));
+        named.map(|(name, text)| (format!("data-{name}"), text)).collect()
     }
 
     /// Style sheet of the page.
@@ -197,7 +204,10 @@ impl Page {
 
     /// Script of the viewer.
     pub(super) fn js(&self) -> &'static str {
-        include_str!("../../templates/viewer.js")
+        concat!(
+            include_str!("../../templates/picture.js"),
+            include_str!("../../templates/viewer.js")
+        )
     }
 
     /// How long the study took.

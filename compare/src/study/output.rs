@@ -53,7 +53,7 @@ pub(super) fn write_flip(to: &Path, resolution_px: [u32; 2], map: Vec<f64>) -> R
 pub(super) fn write(out: &Path, study: &Study, rows: &[ResultRow]) -> Result<(), Error> {
     results::write_rows(out, rows)?;
     results::write_study(out, study)?;
-    report::write(out)?;
+    report::write(out, report::Options::default())?;
     Ok(())
 }
 

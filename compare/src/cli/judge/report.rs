@@ -13,6 +13,10 @@ pub(in crate::cli) struct Args {
     /// Folder that `snell study` wrote
     #[arg(default_value = "out")]
     dir: PathBuf,
+    /// Write the page alone, without data/ beside it: of a large study it then shows means of
+    /// pixels, and says so
+    #[arg(long)]
+    single_file: bool,
     #[command(flatten)]
     externals: ExternalArgs,
 }
@@ -21,7 +25,9 @@ pub(in crate::cli) fn run(args: &Args, output: Output) -> Result<Status, Error> 
     if !args.externals.is_empty() {
         added::add(&args.dir, &args.externals.list()?)?;
     }
-    let report = report::write(&args.dir)?;
+    let options =
+        report::Options { single_file: args.single_file, ..report::Options::default() };
+    let report = report::write(&args.dir, options)?;
     if output.json {
         output.object("snell.report/1", &report)?;
     } else {

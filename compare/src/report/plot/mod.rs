@@ -8,12 +8,12 @@ mod axis;
 mod labels;
 mod marks;
 
-pub use marks::escape;
+pub use marks::{escape, literal, marker_image};
 
 use crate::report::number::digits;
 use axis::Axis;
 use labels::{Area, free_label};
-use marks::{BOTTOM, COLOURS, FAINT, HEIGHT, INK, LEFT, RIGHT, TOP, WIDTH, line, marker, text};
+use marks::{BOTTOM, FAINT, HEIGHT, INK, LEFT, RIGHT, TOP, WIDTH, colour, line, marker, text};
 use std::fmt::Write;
 
 /// One method in a plot.
@@ -198,7 +198,7 @@ impl Plot {
             let shown = points.iter().filter(|p| p.0 > 0.0 && p.1 > 0.0);
             let path: Vec<String> =
                 shown.map(|p| format!("{:.1},{:.1}", x.place(p.0), y.place(p.1))).collect();
-            let colour = COLOURS[style % COLOURS.len()];
+            let colour = colour(*style);
             let _ = write!(
                 svg,
                 "<polyline points=\"{}\" fill=\"none\" stroke=\"{colour}\" \
@@ -216,7 +216,7 @@ impl Plot {
         order.sort_by(|a, b| a.time_ms.total_cmp(&b.time_ms));
         for point in order {
             let at = place(point);
-            let colour = COLOURS[point.style % COLOURS.len()];
+            let colour = colour(point.style);
             if let Some((low, high)) = point.interval.filter(|(low, _)| *low > 0.0) {
                 let ends = [at[0], y.place(high), at[0], y.place(low)];
                 line(svg, ends, colour, " stroke-width=\"1.5\"");
@@ -231,8 +231,7 @@ impl Plot {
                 (digits(point.error), crate::report::number::duration(point.time_ms));
             let _ = write!(
                 svg,
-                "<g fill=\"{colour}\" stroke=\"var(--paper, #fff)\">\
-                 <title>{name}: {error}, {time}</title>{}</g>",
+                "<g><title>{name}: {error}, {time}</title>{}</g>",
                 marker(point.style, at[0], at[1])
             );
             if let Some(label) = label {

@@ -6,16 +6,16 @@ use super::page::{ImageData, SceneData, SceneView};
 use super::pictures::{SceneImages, colour_map};
 use super::runs::{MERITS, methods_of};
 use crate::results::Study;
+use crate::support::files::{self, FileError};
 use serde_json::json;
+use std::path::Path;
 
-/// What the data may take in the page before pictures are shrunk, bytes.
-const BUDGET_BYTES: f64 = 40e6;
 /// Base64 bytes per half float, as measured on glass under a sky.
 const BYTES_PER_VALUE: f64 = 1.6;
 
 /// By how much pictures are shrunk in both directions, so that the data of
 /// the whole study stay within the budget.
-pub(in crate::report) fn shrinking(study: &Study) -> usize {
+pub(in crate::report) fn shrinking(study: &Study, budget_bytes: f64) -> usize {
     let values: u64 = study
         .scenes
         .iter()
@@ -25,30 +25,53 @@ pub(in crate::report) fn shrinking(study: &Study) -> usize {
             width * height * (3 + 5 * methods_of(study, &scene.name).len() as u64)
         })
         .sum();
-    (values as f64 * BYTES_PER_VALUE / BUDGET_BYTES).sqrt().ceil().max(1.0) as usize
+    (values as f64 * BYTES_PER_VALUE / budget_bytes).sqrt().ceil().max(1.0) as usize
 }
 
 /// What was done to keep the page small; empty if nothing.
-pub(in crate::report) fn note(factor: usize) -> String {
+pub(in crate::report) fn note(factor: usize, single_file: bool) -> String {
     if factor == 1 {
         return String::new();
     }
-    format!(
-        "To keep this file small, the viewer holds means of {factor}x{factor} pixels; the EXR \
-         files beside this page hold them all."
-    )
+    let full = if single_file {
+        "the EXR files of the study hold them all"
+    } else {
+        "all of them are in data/ beside it, and are shown while that folder is there"
+    };
+    format!("To keep this file small it holds means of {factor}x{factor} pixels; {full}.")
+}
+
+/// Where a scene's data in full size lie, from the page.
+fn script_place(index: usize) -> String {
+    format!("data/scene-{index}.js")
+}
+
+/// Writes a scene's data in full size as a script that the page runs when the scene is
+/// looked at: a page that is opened from a file may load nothing else.
+pub(in crate::report) fn write_full(
+    directory: &Path,
+    view: &SceneView,
+    images: &SceneImages,
+) -> Result<(), FileError> {
+    let Some(data) = data(view, images, 1) else { return Ok(()) };
+    let blocks: serde_json::Map<String, serde_json::Value> =
+        data.blocks(view.index).map(|(name, text)| (name, text.into())).collect();
+    let script = format!("snellScene({}, {});\n", view.index, serde_json::Value::Object(blocks));
+    files::write(&directory.join(script_place(view.index)), script.as_bytes())
 }
 
 /// The viewer's table of contents as JSON that is safe inside a script
 /// element; empty when there is nothing to view.
-pub(in crate::report) fn contents(scenes: &[SceneView]) -> String {
+pub(in crate::report) fn contents(scenes: &[SceneView], factor: usize, full: bool) -> String {
     let entry = |(view, data): (&SceneView, &SceneData)| {
         let names: Vec<&str> = data.images.iter().map(|image| image.name.as_str()).collect();
         json!({
             "index": view.index,
             "name": view.entry.name,
-            "width": data.size_px[0],
-            "height": data.size_px[1],
+            "width": data.file_px[0],
+            "height": data.file_px[1],
+            "texel_px": factor,
+            "file": full.then(|| script_place(view.index)),
             "ev": view.ev,
             "images": names,
             "facts": facts(view, &names),
@@ -127,7 +150,7 @@ pub(in crate::report) fn data(
             angle: angles.map(|map| coded(&map, 1)).unwrap_or_default(),
         });
     }
-    Some(SceneData { size_px, images: list })
+    Some(SceneData { file_px: images.size_px, images: list })
 }
 
 /// Means of blocks of `factor` x `factor` pixels.
