@@ -72,9 +72,11 @@ fn the_spreadsheet_has_a_line_per_row() {
 #[test]
 fn an_incomplete_directory_is_refused_by_name() {
     let directory = tempfile::tempdir().unwrap();
-    let error = report::write(directory.path(), report::Options::default()).unwrap_err().to_string();
+    let error =
+        report::write(directory.path(), report::Options::default()).unwrap_err().to_string();
     assert!(error.contains("results.jsonl"), "{error}");
     write_rows(directory.path(), &[]).unwrap();
-    let error = report::write(directory.path(), report::Options::default()).unwrap_err().to_string();
+    let error =
+        report::write(directory.path(), report::Options::default()).unwrap_err().to_string();
     assert!(error.contains("study.json"), "{error}");
 }

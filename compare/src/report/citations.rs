@@ -62,7 +62,8 @@ mod tests {
 
     #[test]
     fn a_source_is_named_by_its_authors_and_year() {
-        let entry = |authors: &str| format!("@x{{A,\n  author = {{{authors}}},\n  year = {{2005}}\n}}");
+        let entry =
+            |authors: &str| format!("@x{{A,\n  author = {{{authors}}},\n  year = {{2005}}\n}}");
         assert_eq!(source(&entry("Chris Wyman")), "Wyman 2005");
         assert_eq!(source(&entry("Stefan Seipel and Nivfors, Anders")), "Seipel and Nivfors 2005");
         assert_eq!(source(&entry("A B and C D and E F")), "B et al. 2005");

@@ -25,8 +25,7 @@ pub(in crate::cli) fn run(args: &Args, output: Output) -> Result<Status, Error> 
     if !args.externals.is_empty() {
         added::add(&args.dir, &args.externals.list()?)?;
     }
-    let options =
-        report::Options { single_file: args.single_file, ..report::Options::default() };
+    let options = report::Options { single_file: args.single_file, ..report::Options::default() };
     let report = report::write(&args.dir, options)?;
     if output.json {
         output.object("snell.report/1", &report)?;
