@@ -35,7 +35,7 @@ pub(super) fn marker(style: usize, x: f64, y: f64) -> String {
     let turned = |count: usize, inner: f64, outer: f64| {
         let corner = |i: usize| {
             let (sin, cos) = (std::f64::consts::PI * i as f64 / count as f64).sin_cos();
-            let radius = if i % 2 == 0 { outer } else { inner };
+            let radius = if i.is_multiple_of(2) { outer } else { inner };
             (radius * sin, -radius * cos)
         };
         polygon(&(0..2 * count).map(corner).collect::<Vec<_>>())
