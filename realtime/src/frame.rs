@@ -3,7 +3,7 @@
 
 use crate::composition::chosen::decided;
 use crate::composition::inputs::Inputs;
-use crate::drawn::frame_uniforms::{Viewed, upload_numbers};
+use crate::drawn::frame_uniforms::{self, Viewed, upload_numbers};
 use crate::drawn::geometry::Geometry;
 use crate::error::Error;
 use crate::gpu::Gpu;
@@ -14,6 +14,8 @@ use crate::passes::{Listed, Maker, Making, Pass, Ready, Wanted};
 use crate::passes::{back, backdrop, cracks_and_air, front, normal_cube, peel, shade};
 use crate::plan::counted::Counted;
 use crate::plan::entries::Entries;
+use crate::plan::timing::THICKNESS;
+use glam::DVec2;
 use scenes::Plan;
 use scenes::plan::Kind;
 
@@ -62,8 +64,26 @@ impl<'a> Composition<'a> {
         self.inputs.draws_clipped_cracks()
     }
 
-    /// Its plan. `repeated`: of a frame after the first.
+    /// Its plan, drawn at some positions in each pixel, one after the other.
+    /// `repeated`: of a frame after the first.
     pub(crate) fn plan(
+        &self,
+        geometry: &Geometry,
+        positions: usize,
+        repeated: bool,
+        counted: Option<Counted>,
+    ) -> Plan {
+        let mut plan = self.plan_at_one(geometry, repeated, counted);
+        if positions > 1 {
+            let mut again = self.plan_at_one(geometry, true, counted).passes;
+            // The CPU's part is done once for all of them.
+            again.retain(|pass| pass != THICKNESS);
+            plan.passes.extend((1..positions).flat_map(|_| again.iter().cloned()));
+        }
+        plan
+    }
+
+    fn plan_at_one(
         &self,
         geometry: &Geometry,
         repeated: bool,
@@ -106,19 +126,31 @@ impl Frame {
         self.passes.iter().find_map(|ready| ready.counted)
     }
 
-    /// Makes pipelines and memory.
+    /// Turns to another shift of the view.
+    pub(crate) fn aim(&self, gpu: &Gpu, view: &Viewed<'_>) {
+        let capacity = self.counted().map_or(0, |counted| counted.capacity);
+        frame_uniforms::write(gpu, self.outputs.stored("frame"), view, capacity);
+        for (buffer, resolution_px) in self.passes.iter().filter_map(|pass| pass.following.as_ref())
+        {
+            let own = Viewed { resolution_px: *resolution_px, ..*view };
+            frame_uniforms::write(gpu, buffer, &own, 0);
+        }
+    }
+
+    /// Makes pipelines and memory for a view at all of its shifts.
     pub(crate) fn new(
         gpu: &Gpu,
         allocator: &Allocator<'_>,
         composition: &Composition<'_>,
         view: &Viewed<'_>,
+        shifts: &[DVec2],
     ) -> Result<Self, Error> {
         let mut outputs = upload_numbers(allocator, view)?;
         let bodies = Maker::new(gpu, allocator, &view.geometry.bodies, view.resolution_px)?;
         let bodies = bodies.within(composition.within_px);
         let mut passes = Vec::new();
         for pass in composition.passes.iter().rev().flatten() {
-            let making = Making { view, bodies: bodies.clone(), before: &outputs };
+            let making = Making { view, shifts, bodies: bodies.clone(), before: &outputs };
             let ready = pass.ready(&making)?;
             outputs = ready.outputs.clone().over(&outputs);
             passes.push(ready);

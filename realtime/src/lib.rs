@@ -6,6 +6,7 @@
 //! knows wgpu.
 
 mod composition;
+mod drawing;
 mod drawn;
 mod error;
 mod frame;

@@ -23,43 +23,62 @@ pub(crate) struct Readout<'a> {
     pub(crate) frame: &'a Frame,
 }
 
+/// Light, summed over positions in the pixels. Only what was asked for has room.
+pub(crate) struct Light {
+    radiance: Option<Vec<f64>>,
+    coverage: Option<Vec<f64>>,
+}
+
+impl Light {
+    /// Nothing yet.
+    pub(crate) fn of(view: &View) -> Self {
+        let pixels: usize = view.resolution_px.map(|n| n as usize).iter().product();
+        let zeros = |name, channels| view.wants(&name).then(|| vec![0.0; channels * pixels]);
+        let radiance = zeros(LayerName::Radiance, 3);
+        Self { radiance, coverage: zeros(LayerName::Coverage, 1) }
+    }
+
+    /// Adds radiance and coverage, four numbers per pixel.
+    fn add(&mut self, values: &[f32]) {
+        let radiance = self.radiance.as_deref_mut().unwrap_or_default();
+        radiance.par_chunks_mut(3).zip(values.par_chunks(4)).for_each(|(sums, value)| {
+            sums.iter_mut().zip(value).for_each(|(sum, value)| *sum += f64::from(*value));
+        });
+        let coverage = self.coverage.as_deref_mut().unwrap_or_default();
+        let pixels = coverage.par_iter_mut().zip(values.par_chunks(4));
+        pixels.for_each(|(sum, value)| *sum += f64::from(value[3]));
+    }
+
+    /// Keeps the means.
+    pub(crate) fn keep(self, positions: usize, layers: &mut Layers) {
+        let sums = [
+            (LayerName::Radiance, 3, self.radiance),
+            (LayerName::Coverage, 1, self.coverage),
+        ];
+        for (name, channels, sums) in sums {
+            if let Some(mut sums) = sums {
+                sums.par_iter_mut().for_each(|sum| *sum /= positions as f64);
+                layers.push(name, channels, sums);
+            }
+        }
+    }
+}
+
 impl Readout<'_> {
-    /// Reads every layer that a frame answers.
-    pub(crate) fn read(&self, request: &FrameRequest, layers: &mut Layers) -> Result<(), Error> {
-        if request.outputs.contains(&"radiance") {
-            self.radiance(request.scale, layers)?;
-        }
-        if request.scale == 1 {
-            self.single(request, layers)?;
-            self.buffers(request, layers)?;
-        }
+    /// Adds what was shaded at one position.
+    pub(crate) fn add_light(&self, light: &mut Light) -> Result<(), Error> {
+        light.add(&self.image("radiance")?);
         Ok(())
     }
 
-    /// Means over k x k positions.
-    fn radiance(&self, k: u32, layers: &mut Layers) -> Result<(), Error> {
-        let values = self.image("radiance")?;
-        let [width, height] = self.view.resolution_px.map(|n| n as usize);
-        let k = k as usize;
-        let mut radiance = vec![0.0; 3 * width * height];
-        let mut coverage = vec![0.0; width * height];
-        let rows = radiance.par_chunks_mut(3 * width).zip(coverage.par_chunks_mut(width));
-        rows.zip(values.par_chunks(4 * width * k * k)).for_each(
-            |((radiance, coverage), values)| {
-                for (i, value) in values.chunks_exact(4).enumerate() {
-                    let pixel = i % (width * k) / k;
-                    for channel in 0..3 {
-                        radiance[3 * pixel + channel] += f64::from(value[channel]);
-                    }
-                    coverage[pixel] += f64::from(value[3]);
-                }
-            },
-        );
-        let positions = (k * k) as f64;
-        radiance.iter_mut().chain(&mut coverage).for_each(|value| *value /= positions);
-        self.push(layers, LayerName::Radiance, 3, radiance);
-        self.push(layers, LayerName::Coverage, 1, coverage);
-        Ok(())
+    /// Reads every layer that belongs to pixel centres.
+    pub(crate) fn at_centres(
+        &self,
+        request: &FrameRequest,
+        layers: &mut Layers,
+    ) -> Result<(), Error> {
+        self.single(request, layers)?;
+        self.buffers(request, layers)
     }
 
     /// What shading says at pixel centres.

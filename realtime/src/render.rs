@@ -5,16 +5,18 @@ use crate::composition::outputs::{camera, outputs};
 use crate::drawn::frame_uniforms::Viewed;
 use crate::drawn::geometry::Geometry;
 use crate::error::Error;
+use crate::drawing::Drawing;
 use crate::frame::{Composition, Frame};
 use crate::frames::{FrameRequest, frames};
 use crate::gpu::Gpu;
 use crate::gpu::allocator::Allocator;
-use crate::gpu::recorder::{Executed, Recorder};
+use crate::gpu::recorder::Executed;
 use crate::methods::{Method, Settings};
 use crate::passes::peel;
+use crate::plan::counted::Counted;
 use crate::plan::timing::FrameTimes;
-use crate::readout::Readout;
-use crate::request::{Request, Timing};
+use crate::readout::{Light, Readout};
+use crate::request::Request;
 use crate::wgsl::Choices;
 use scenes::plan::Buffer;
 use scenes::rendering::Provenance;
@@ -34,17 +36,19 @@ pub fn plan(scene: &Scene, request: &Request) -> Result<Plan, Error> {
     for frame in frames(request, &outputs(method, scene, request)?) {
         let composition = Composition::new(asked.inputs(&frame))?;
         let geometry = asked.drawn(&composition);
-        add(&mut plan, frame.label, composition.plan(&geometry, frame.is_timed(), None));
+        let positions = frame.shifts().len();
+        let of_frame = composition.plan(&geometry, positions, frame.is_timed(), None);
+        add(&mut plan, frame.label, of_frame);
     }
     Ok(plan)
 }
 
 /// Renders a scene with a method.
 ///
-/// Radiance is the mean over k x k positions of a frame k times as large; the
-/// direction layers come from a frame of their own at pixel centres. What is
-/// timed is a third one: one position per pixel, light only, filtered by the
-/// hardware.
+/// Radiance is the mean of k x k frames, each seen through another position in the
+/// pixels; the direction layers come from a frame of their own at pixel centres.
+/// What is timed is one more: one position per pixel unless [`crate::Timing`] says
+/// otherwise, light only, filtered by the hardware.
 ///
 /// # Errors
 /// If the request does not fit the method, or the GPU fails.
@@ -72,8 +76,10 @@ struct Ran {
     plan: Plan,
     /// Of everything that was allocated.
     bytes: u64,
-    frame: Frame,
-    executed: Executed,
+    counted: Option<Counted>,
+    /// Names of the passes.
+    executed: Vec<String>,
+    timed: Vec<Executed>,
     /// What it took to find the distances through the bodies, if they are read.
     thickness_ms: Option<f64>,
 }
@@ -99,7 +105,7 @@ impl<'a> Asked<'a> {
             geometry: &self.geometry,
             request: &frame.request,
             outputs: &frame.outputs,
-            resolution_px: frame.resolution_px(),
+            resolution_px: self.request.view.resolution_px,
             choices: Choices::default(),
             index_matched: false,
         }
@@ -120,27 +126,22 @@ impl<'a> Asked<'a> {
         let mut plan = Plan::default();
         for request in frames(self.request, wanted) {
             let request = request.on(gpu);
-            let ran = self.frame(gpu, &request)?;
-            ran.frame.counted().into_iter().for_each(|counted| times.layers(counted));
+            let ran = self.frame(gpu, &request, &mut layers)?;
+            ran.counted.into_iter().for_each(|counted| times.layers(counted));
             times.bytes += ran.bytes;
-            let timed = match (request.is_timed(), self.request.timing) {
-                (true, Some(timing)) => time(gpu, &ran, timing)?,
-                _ => Vec::new(),
-            };
             let per_frame_ms = ran.thickness_ms.filter(|_| self.geometry.deforms);
-            times.add(request.label, &ran.executed.passes, &timed, per_frame_ms);
-            if !request.is_timed() {
-                let (method, geometry) = (self.method, &self.geometry);
-                let view = &self.request.view;
-                Readout { gpu, method, geometry, view, frame: &ran.frame }
-                    .read(&request, &mut layers)?;
-            }
+            times.add(request.label, &ran.executed, &ran.timed, per_frame_ms);
             add(&mut plan, request.label, ran.plan);
         }
         Ok(self.answer(gpu, times, plan, layers))
     }
 
-    fn frame(&self, gpu: &Gpu, request: &FrameRequest) -> Result<Ran, Error> {
+    fn frame(
+        &self,
+        gpu: &Gpu,
+        request: &FrameRequest,
+        layers: &mut Layers,
+    ) -> Result<Ran, Error> {
         let composition = Composition::new(self.inputs(request))?;
         let allocator = Allocator::new(gpu);
         let mut geometry = self.drawn(&composition);
@@ -150,22 +151,48 @@ impl<'a> Asked<'a> {
             geometry.to_mut().bodies.measure_thickness();
             thickness_ms = Some(started.elapsed().as_secs_f64() * 1e3);
         }
-        let viewed = Viewed {
+        let shifts = request.shifts();
+        let view = Viewed {
             geometry: &geometry,
             environment: &self.scene.environment,
             camera: &self.camera,
             eta_outside: self.scene.media[0].eta.get(),
-            resolution_px: request.resolution_px(),
+            resolution_px: self.request.view.resolution_px,
+            shift: shifts[0],
         };
-        let frame = Frame::new(gpu, &allocator, &composition, &viewed)?;
-        let mut executed = once(gpu, &frame, false, true)?;
-        if request.is_timed() {
-            // The frames after the first are what a game draws.
-            executed = once(gpu, &frame, true, false)?;
-        }
-        let plan = composition.plan(&geometry, request.is_timed(), frame.counted());
+        let frame = Frame::new(gpu, &allocator, &composition, &view, &shifts)?;
+        let drawing = Drawing { gpu, frame: &frame, view, shifts: &shifts };
+        let (executed, timed) = match self.request.timing.filter(|_| request.is_timed()) {
+            Some(timing) => drawing.timed(timing)?,
+            None => (self.judged(gpu, request, &drawing, layers)?.passes, Vec::new()),
+        };
+        let counted = frame.counted();
+        let plan = composition.plan(&geometry, shifts.len(), request.is_timed(), counted);
         let bytes = allocator.allocated().iter().map(|buffer| buffer.bytes).sum();
-        Ok(Ran { plan, bytes, frame, executed, thickness_ms })
+        Ok(Ran { plan, bytes, counted, executed, timed, thickness_ms })
+    }
+
+    /// Draws an image and reads its layers.
+    fn judged(
+        &self,
+        gpu: &Gpu,
+        request: &FrameRequest,
+        drawing: &Drawing<'_>,
+        layers: &mut Layers,
+    ) -> Result<Executed, Error> {
+        let (method, geometry, view) = (self.method, &self.geometry, &self.request.view);
+        let readout = Readout { gpu, method, geometry, view, frame: drawing.frame };
+        let mut light = request.outputs.contains(&"radiance").then(|| Light::of(view));
+        let executed = drawing.once(false, true, || {
+            light.as_mut().map_or(Ok(()), |light| readout.add_light(light))
+        })?;
+        if let Some(light) = light {
+            light.keep(drawing.shifts.len(), layers);
+        }
+        if request.positions_per_axis == 1 {
+            readout.at_centres(request, layers)?;
+        }
+        Ok(executed)
     }
 
     fn answer(&self, gpu: &Gpu, times: FrameTimes, plan: Plan, layers: Layers) -> Rendering {
@@ -207,30 +234,4 @@ fn add(plan: &mut Plan, label: &str, of_frame: Plan) {
     let buffers = of_frame.buffers.iter();
     let labelled = buffers.map(|b| Buffer { name: labelled(&b.name), bytes: b.bytes });
     plan.buffers.extend(labelled);
-}
-
-fn once(gpu: &Gpu, frame: &Frame, timed: bool, first: bool) -> Result<Executed, Error> {
-    let mut recorder = Recorder::new(gpu, timed);
-    frame.record(&mut recorder, first);
-    recorder.finish()
-}
-
-/// Times of frames after the two that were drawn already.
-fn time(gpu: &Gpu, ran: &Ran, timing: Timing) -> Result<Vec<Executed>, Error> {
-    let frame = &ran.frame;
-    for _ in 2..timing.warm_up {
-        once(gpu, frame, true, false)?;
-    }
-    let started = Instant::now();
-    let mut frames = Vec::new();
-    if timing.warm_up < 2 {
-        frames.push(ran.executed.clone());
-    }
-    while frames.len() < 3
-        || (started.elapsed().as_secs_f64() < timing.seconds
-            && frames.len() < timing.max_frames as usize)
-    {
-        frames.push(once(gpu, frame, true, false)?);
-    }
-    Ok(frames)
 }

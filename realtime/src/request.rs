@@ -67,10 +67,13 @@ pub struct Timing {
     pub seconds: f64,
     /// At most this many frames.
     pub max_frames: u32,
+    /// k: a frame is drawn at k x k positions in each pixel, one after the other;
+    /// adding them up is not timed.
+    pub positions_per_axis: u32,
 }
 
 impl Default for Timing {
     fn default() -> Self {
-        Self { warm_up: 2, seconds: 0.3, max_frames: 200 }
+        Self { warm_up: 2, seconds: 0.3, max_frames: 200, positions_per_axis: 1 }
     }
 }

@@ -9,7 +9,9 @@ use super::runs::{MERITS, display_name, find, methods_of, styles};
 use super::{Options, ReportError, citations, folder, scene_plots, verdict, viewer};
 use crate::metric::{Better, Mask, Metric};
 use crate::results::{REFERENCE, ResultRow, RowKind, Run, SceneEntry, Study, Validity, saved_ms};
+use crate::support::repeats::stretches;
 use rayon::prelude::*;
+use scenes::rendering::Pass;
 use std::path::Path;
 
 /// Reads the images, makes every picture and its file, and fills a page.
@@ -95,9 +97,12 @@ fn method_view(
         planned => planned,
     };
     let time = numbers.time(run, &study.time_metric);
-    let passes = run.passes.iter().map(|pass| {
-        let times: Vec<String> = pass.times.iter().map(|t| duration(t.milliseconds)).collect();
-        (pass.name.clone(), times.join(", "))
+    let passes = stretches(&run.passes).into_iter().map(|(repeated, passes)| {
+        let named = |pass: &Pass| {
+            let times = pass.times.iter().map(|t| duration(t.milliseconds));
+            (pass.name.clone(), times.collect::<Vec<_>>().join(", "))
+        };
+        (repeated, passes.iter().map(named).collect())
     });
     let left_out = run.plan.left_out.iter().map(|left| {
         let saved = if left.saves_bytes > 0 { bytes(left.saves_bytes) } else { String::new() };
@@ -113,6 +118,7 @@ fn method_view(
         },
         memory: if memory > 0 { bytes(memory) } else { "—".to_owned() },
         passes: passes.collect(),
+        passes_count: run.passes.len(),
         left_out: left_out.collect(),
         saved_time: saved_ms(numbers.of(run).iter().copied(), &study.time_metric)
             .map_or(String::new(), duration_saved),

@@ -33,8 +33,10 @@ pub(super) struct MethodView {
     pub(super) time: Cell,
     /// Memory of its buffers.
     pub(super) memory: String,
-    /// Passes that ran, with their times.
-    pub(super) passes: Vec<(String, String)>,
+    /// Passes that ran, with their times, and how often in a row.
+    pub(super) passes: Vec<(usize, Vec<(String, String)>)>,
+    /// All of them.
+    pub(super) passes_count: usize,
     /// What was left out, why, and the bytes it would have taken.
     pub(super) left_out: Vec<(String, String, String)>,
     /// How much shorter the frame is for it; empty if that was not measured.

@@ -15,22 +15,35 @@ pub(crate) fn buffers(request: &Request) -> Vec<&str> {
     names.collect()
 }
 
-/// Most texels along a side that any adapter is asked for.
-const LARGEST_PX: u64 = 32_768;
+/// Most pixels along a side that any adapter is asked for.
+const LARGEST_PX: u32 = 32_768;
+/// Most positions along a pixel's side.
+const MOST_POSITIONS: u32 = 64;
 
 /// Refuses sizes that have no content, or that no adapter holds.
 fn check_size(request: &Request) -> Result<(), Error> {
+    let timed = request.timing.map(|timing| timing.positions_per_axis);
+    for k in [Some(request.view.positions_per_axis), timed].into_iter().flatten() {
+        check_positions(request, k)?;
+    }
+    Ok(())
+}
+
+fn check_positions(request: &Request, k: u32) -> Result<(), Error> {
     let [width, height] = request.view.resolution_px;
-    let k = request.view.positions_per_axis;
     let what = format!("an image of {width} x {height} pixels with {k} x {k} positions");
-    let needed = u64::from(width.max(height)) * u64::from(k);
     if width == 0 || height == 0 || k == 0 {
         return Err(Error::Size(format!("{what} is empty; write at least 1 for each")));
     }
-    if needed > LARGEST_PX {
-        let advice = "lower the resolution or the number of positions";
+    if width.max(height) > LARGEST_PX {
+        let advice = "lower the resolution";
         return Err(Error::Size(format!(
-            "{what} is {needed} texels along a side, more than {LARGEST_PX}; {advice}"
+            "{what} has more than {LARGEST_PX} pixels along a side; {advice}"
+        )));
+    }
+    if k > MOST_POSITIONS {
+        return Err(Error::Size(format!(
+            "{what} is drawn at more than {MOST_POSITIONS} x {MOST_POSITIONS}; lower their number"
         )));
     }
     Ok(())

@@ -7,7 +7,7 @@ use crate::gpu::Gpu;
 use crate::gpu::allocator::Allocator;
 use crate::gpu::resources::Outputs;
 use encase::ShaderType;
-use glam::{DMat4, DVec3, Mat4, Vec2, Vec3, Vec4};
+use glam::{DMat4, DVec2, DVec3, Mat4, Vec2, Vec3, Vec4};
 
 use scenes::{Camera, Environment};
 
@@ -19,6 +19,9 @@ pub(crate) struct Viewed<'a> {
     pub(crate) camera: &'a Camera,
     pub(crate) eta_outside: f64,
     pub(crate) resolution_px: [u32; 2],
+    /// From the pixels' centres to the positions in them that are drawn, as parts of
+    /// the image's width and height.
+    pub(crate) shift: DVec2,
 }
 
 /// Mirrors `Frame` in frame.wgsl.
@@ -31,6 +34,7 @@ pub(crate) struct FrameUniform {
     pub(crate) forward_ws: Vec3,
     pub(crate) half_extent: Vec2,
     pub(crate) resolution_px: Vec2,
+    pub(crate) shift_px: Vec2,
     pub(crate) eta_outside: f32,
     pub(crate) radius_m: f32,
     pub(crate) layer_capacity: u32,
@@ -62,15 +66,10 @@ pub(crate) fn upload_numbers(
     Ok(outputs)
 }
 
-/// Writes how many layers there is room for into the frame's numbers.
-pub(crate) fn set_layer_capacity(
-    gpu: &Gpu,
-    view: &Viewed<'_>,
-    layer_capacity: u32,
-    resources: &Outputs,
-) {
-    let bytes = frame_bytes(view, layer_capacity);
-    gpu.queue.write_buffer(resources.stored("frame"), 0, &bytes);
+/// Writes the numbers of a view again: its shift may be another, and how many
+/// layers there is room for.
+pub(crate) fn write(gpu: &Gpu, buffer: &wgpu::Buffer, view: &Viewed<'_>, layer_capacity: u32) {
+    gpu.queue.write_buffer(buffer, 0, &frame_bytes(view, layer_capacity));
 }
 
 fn frame_bytes(view: &Viewed<'_>, layer_capacity: u32) -> Vec<u8> {
@@ -79,20 +78,22 @@ fn frame_bytes(view: &Viewed<'_>, layer_capacity: u32) -> Vec<u8> {
 
 /// The camera's numbers, as the shaders see them.
 pub(crate) fn numbers(view: &Viewed<'_>, layer_capacity: u32) -> FrameUniform {
-    let Viewed { geometry, camera, eta_outside, resolution_px, .. } = *view;
+    let Viewed { geometry, camera, eta_outside, resolution_px, shift, .. } = *view;
     let (centre, radius_m) = (geometry.centre, geometry.radius_m);
     FrameUniform {
         layer_capacity,
         middle_lc: geometry.middle_lc,
-        ..FrameUniform::new(camera, resolution_px, centre, radius_m, eta_outside)
+        ..FrameUniform::new(camera, resolution_px, shift, centre, radius_m, eta_outside)
     }
 }
 
 impl FrameUniform {
-    /// The camera at a resolution, seen from `centre` (world space, metres).
+    /// The camera at a resolution, seen from `centre` (world space, metres), its
+    /// image shifted as in [`Viewed`].
     pub(crate) fn new(
         camera: &Camera,
         resolution_px: [u32; 2],
+        shift: DVec2,
         centre: DVec3,
         radius_m: f64,
         eta_outside: f64,
@@ -102,7 +103,10 @@ impl FrameUniform {
         // Planes fitted to the bodies; never behind the eye.
         let near_m = (middle_m - 1.001 * radius_m).max(1e-3 * radius_m);
         let far_m = (middle_m + 1.001 * radius_m).max(2.0 * near_m);
-        let clip_from_lc = camera.clip_from_view(near_m, far_m)
+        // The image moves against the pixels by as much as their positions move in it.
+        let shifted = DMat4::from_translation(DVec3::new(-2.0 * shift.x, 2.0 * shift.y, 0.0));
+        let clip_from_lc = shifted
+            * camera.clip_from_view(near_m, far_m)
             * camera.view_from_world()
             * DMat4::from_translation(centre);
         Self {
@@ -113,6 +117,7 @@ impl FrameUniform {
             forward_ws: basis.forward.as_vec3(),
             half_extent: camera.half_extent().as_vec2(),
             resolution_px: Vec2::from_array(resolution_px.map(|n| n as f32)),
+            shift_px: (shift * DVec2::from_array(resolution_px.map(f64::from))).as_vec2(),
             eta_outside: eta_outside as f32,
             radius_m: radius_m as f32,
             layer_capacity: 0,
@@ -154,6 +159,7 @@ impl FrameUniform {
             forward_ws: forward,
             half_extent: Vec2::splat(extent),
             resolution_px: Vec2::splat(edge_px),
+            shift_px: Vec2::ZERO,
             ..self.clone()
         }
     }

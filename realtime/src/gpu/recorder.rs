@@ -25,6 +25,18 @@ pub(crate) struct Executed {
     pub(crate) wall_ms: f64,
 }
 
+impl Executed {
+    /// Adds what was done after it.
+    pub(crate) fn then(&mut self, next: Self) {
+        // Either all are timed or none is.
+        let before = self.timestamp_ms.take().unwrap_or_default();
+        let timestamps = next.timestamp_ms.into_iter();
+        self.timestamp_ms = timestamps.map(|after| [before.clone(), after].concat()).next();
+        self.passes.extend(next.passes);
+        self.wall_ms += next.wall_ms;
+    }
+}
+
 const MAX_PASSES: u32 = 256;
 
 impl<'g> Recorder<'g> {

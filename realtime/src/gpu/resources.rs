@@ -78,9 +78,13 @@ impl Outputs {
     }
 
     pub(crate) fn stored(&self, name: &str) -> &wgpu::Buffer {
+        self.buffer_named(name).unwrap_or_else(|| panic!("there is no buffer {name}"))
+    }
+
+    pub(crate) fn buffer_named(&self, name: &str) -> Option<&wgpu::Buffer> {
         match self.0.get(name) {
-            Some(Resource::Buffer(buffer)) => buffer,
-            _ => panic!("there is no buffer {name}"),
+            Some(Resource::Buffer(buffer)) => Some(buffer),
+            _ => None,
         }
     }
 

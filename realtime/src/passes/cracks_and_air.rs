@@ -222,7 +222,9 @@ impl Pass for CracksAndAir {
             let maker = of(&geometry.cracks, view.resolution_px)?;
             passes.push(maker.raster(onto_back, making.before)?.0);
         }
-        let mut resources = self.numbers(making)?.over(making.before);
+        let numbers = self.numbers(making)?;
+        let following = numbers.buffer_named("frame").map(|own| (own.clone(), self.resolution_px));
+        let mut resources = numbers.over(making.before);
         let resized = bodies.clone().resized(self.resolution_px);
         for clip in self.clip.iter().flatten() {
             let (pass, images) = resized.raster(clip, &resources)?;
@@ -239,7 +241,7 @@ impl Pass for CracksAndAir {
                 outputs = images.over(&outputs);
             }
         }
-        Ok(Ready::new(ReadyCracksAndAir(passes), outputs))
+        Ok(Ready { following, ..Ready::new(ReadyCracksAndAir(passes), outputs) })
     }
 }
 

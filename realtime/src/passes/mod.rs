@@ -21,6 +21,7 @@ use crate::gpu::recorder::Recorder;
 use crate::gpu::resources::Outputs;
 use crate::plan::counted::Counted;
 use crate::plan::entries::Entries;
+use glam::DVec2;
 
 /// A pass, or a few that belong together, as far as it can be known without a GPU.
 pub(crate) trait Pass {
@@ -67,6 +68,8 @@ impl Wanted<'_> {
 /// What passes are made ready with.
 pub(crate) struct Making<'a> {
     pub(crate) view: &'a Viewed<'a>,
+    /// Every shift that the view will have.
+    pub(crate) shifts: &'a [DVec2],
     /// Draws the bodies into images of the frame's size.
     pub(crate) bodies: Maker<'a>,
     /// What the passes before hand on.
@@ -79,11 +82,14 @@ pub(crate) struct Ready {
     pub(crate) outputs: Outputs,
     /// Layers per pixel that were counted on the way.
     pub(crate) counted: Option<Counted>,
+    /// Numbers of the image's camera at a resolution of the pass's own, which follow
+    /// it from position to position.
+    pub(crate) following: Option<(wgpu::Buffer, [u32; 2])>,
 }
 
 impl Ready {
     fn new(pass: impl Record + 'static, outputs: Outputs) -> Self {
-        Self { pass: Box::new(pass), outputs, counted: None }
+        Self { pass: Box::new(pass), outputs, counted: None, following: None }
     }
 }
 

@@ -9,6 +9,7 @@ mod first_event;
 mod flags;
 mod leaving_out;
 mod plans;
+mod positions;
 mod requests;
 
 use glam::{DAffine3, DVec3};

@@ -22,7 +22,7 @@ fn tetrahedron() -> Shape {
     })
 }
 
-fn environments() -> [Environment; 2] {
+pub(crate) fn environments() -> [Environment; 2] {
     let cube = Cube::from_fn(4, |direction| direction + 1.0);
     let lat_long = LatLong { size_px: [1, 1], texels: vec![[1.0; 3]] };
     let map = Map { name: "test".into(), lat_long, cube, rotation_deg: 0.0, repaired_texels: 0 };
@@ -137,7 +137,7 @@ pub(crate) fn kept(plan: &Plan, rendering: &Rendering) -> bool {
 
 #[test]
 fn every_method_executes_its_plan() {
-    let timing = Timing { warm_up: 0, seconds: 0.0, max_frames: 1 };
+    let timing = Timing { warm_up: 0, seconds: 0.0, max_frames: 1, positions_per_axis: 1 };
     // The projection changes no pass and no byte: one of the two is enough.
     // Every third: both environments and both kinds of normals occur.
     let plain = scenes().into_iter().filter(|scene| scene.camera.eye.x != 0.0).step_by(3);
@@ -207,7 +207,7 @@ fn a_pass_or_a_byte_too_many_is_noticed() {
 fn a_feature_that_is_taken_away_takes_its_passes_and_buffers_with_it() {
     let names = |scene: &Scene| {
         let mut request = request(scene, "blended", &[LayerName::Radiance]);
-        request.timing = Some(Timing { warm_up: 0, seconds: 0.0, max_frames: 1 });
+        request.timing = Some(Timing { warm_up: 0, seconds: 0.0, max_frames: 1, positions_per_axis: 1 });
         let plan = realtime::plan(scene, &request).unwrap();
         let buffers = plan.buffers.iter().map(|buffer| buffer.name.clone());
         plan.passes.into_iter().chain(buffers).collect::<Vec<_>>()
@@ -281,13 +281,20 @@ fn the_timed_frame_has_one_position_and_the_hardwares_filter() {
     scene.environment = environments()[1].clone();
     let mut request = request(&scene, "one-interface", &many_layers());
     request.view.positions_per_axis = 4;
-    request.timing = Some(Timing { warm_up: 0, seconds: 0.0, max_frames: 1 });
+    request.timing = Some(Timing { warm_up: 0, seconds: 0.0, max_frames: 1, positions_per_axis: 1 });
     let plan = realtime::plan(&scene, &request).unwrap();
     let bytes = |name: &str| plan.buffers.iter().find(|b| b.name == name).map(|b| b.bytes);
-    assert_eq!(bytes("radiance"), Some(64 * 64 * 16));
+    assert_eq!(bytes("radiance"), Some(16 * 16 * 16));
     assert_eq!(bytes("timed: radiance"), Some(16 * 16 * 16));
     assert!(bytes("environment_faces").is_some() && bytes("timed: environment_cube").is_some());
     assert_eq!(bytes("timed: environment_faces"), None);
     assert!(plan.passes.iter().any(|p| p == "centre: back"));
     assert!(!plan.passes.iter().any(|p| p == "timed: back"));
+    let shaded = |plan: &Plan, name: &str| plan.passes.iter().filter(|p| *p == name).count();
+    assert_eq!([shaded(&plan, "shade"), shaded(&plan, "timed: shade")], [16, 1]);
+    // Unless more are asked for: one frame after the other.
+    request.timing = request.timing.map(|timing| Timing { positions_per_axis: 2, ..timing });
+    let plan = realtime::plan(&scene, &request).unwrap();
+    assert_eq!([shaded(&plan, "shade"), shaded(&plan, "timed: shade")], [16, 4]);
+    assert!(kept(&plan, &realtime::render(&GPU, &scene, &request).unwrap()));
 }

@@ -40,31 +40,16 @@ fn absurd_sizes_are_refused_before_anything_is_allocated() {
     assert!(matches!(refused(|r| r.view.resolution_px = [0, 8]), Error::Size(_)));
     assert!(matches!(refused(|r| r.view.resolution_px = [1 << 30; 2]), Error::Size(_)));
     assert!(matches!(refused(|r| r.view.positions_per_axis = u32::MAX), Error::Size(_)));
+    let timed = |positions_per_axis| {
+        refused(|r| r.timing = Some(realtime::Timing { positions_per_axis, ..Default::default() }))
+    };
+    assert!([0, 65].into_iter().all(|k| matches!(timed(k), Error::Size(_))));
 }
 
 #[test]
 fn an_unknown_adapter_is_told_what_there_is() {
     let error = Gpu::open(Some("no such adapter")).err().unwrap();
     assert!(matches!(error, Error::UnknownAdapter { .. } | Error::NoAdapter), "{error}");
-}
-
-/// k x k positions are those of the exact renderer: a pixel's mean coverage is
-/// the share of its positions whose rays meet the ball.
-#[test]
-fn positions_lie_where_they_are_stated_to_lie() {
-    let camera = parallel(2.1, [24, 24]);
-    let scene = scene_of(Shape::Sphere { radius_m: 1.0 }, 1.5, camera);
-    let mut request = request(&scene, "undeviated", &[LayerName::Coverage]);
-    request.view.positions_per_axis = 4;
-    let rendering = realtime::render(&GPU, &scene, &request).unwrap();
-    let coverage = &rendering.layers.list[0].data;
-    for (pixel, share) in coverage.iter().enumerate() {
-        let corner = glam::DVec2::new((pixel % 24) as f64, (pixel / 24) as f64);
-        let at = |i: u32| glam::DVec2::new(f64::from(i % 4), f64::from(i / 4)) + 0.5;
-        let rays = (0..16).map(|i| camera.ray_through(corner + at(i) / 4.0));
-        let met = rays.filter(|ray| ray.origin.truncate().length() < 1.0).count();
-        assert_eq!(*share, met as f64 / 16.0, "pixel {pixel}");
-    }
 }
 
 /// Methods count metres inside the bodies: those are a medium's only if all of the

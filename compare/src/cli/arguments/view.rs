@@ -8,6 +8,8 @@ use crate::cli::status::Status;
 use crate::report::pictures::Picture;
 use crate::report::pictures::colour_map;
 use crate::support::files;
+use crate::support::repeats::stretches;
+use scenes::rendering::{Pass, Time};
 use scenes::{LayerName, Layers, Rendering, Scene, View};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -152,12 +154,19 @@ fn text(answer: &Answer) -> String {
         provenance.renderer,
         provenance.adapter
     )];
-    for pass in *passes {
-        let time = |t: &scenes::rendering::Time| format!("{:.2} ms {:?}", t.milliseconds, t.source);
-        let times: Vec<String> = pass.times.iter().map(time).collect();
-        lines.push(format!("  {}: {}", pass.name, times.join(", ").to_lowercase()));
+    for (times, passes) in stretches(passes) {
+        let indent = if times > 1 { "    " } else { "  " };
+        lines.extend((times > 1).then(|| format!("  {times} times")));
+        lines.extend(passes.iter().map(|pass| format!("{indent}{}", timed(pass))));
     }
     let counts: Vec<String> = counters.iter().map(|(name, n)| format!("{n} {name}")).collect();
     lines.push(format!("  {}", counts.join(", ")));
     lines.join("\n")
+}
+
+/// A pass and its times, if it was timed.
+fn timed(pass: &Pass) -> String {
+    let time = |t: &Time| format!("{:.2} ms {:?}", t.milliseconds, t.source).to_lowercase();
+    let times: Vec<String> = pass.times.iter().map(time).collect();
+    if times.is_empty() { pass.name.clone() } else { format!("{}: {}", pass.name, times.join(", ")) }
 }

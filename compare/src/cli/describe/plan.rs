@@ -7,6 +7,7 @@ use crate::cli::arguments::values::parameter;
 use crate::cli::arguments::view::ViewArgs;
 use crate::cli::output::{Output, table};
 use crate::cli::status::Status;
+use crate::support::repeats::stretches;
 use scenes::Plan;
 use serde::Serialize;
 
@@ -74,7 +75,11 @@ pub(in crate::cli) fn run(args: &Args, output: Output) -> Result<Status, Error> 
 
 fn text(plan: &Plan) -> Vec<String> {
     let mut lines = vec!["passes, in order".to_owned()];
-    lines.extend(plan.passes.iter().map(|pass| format!("  {pass}")));
+    for (times, passes) in stretches(&plan.passes) {
+        let (indent, repeated) = if times > 1 { ("    ", true) } else { ("  ", false) };
+        lines.extend(repeated.then(|| format!("  {times} times")));
+        lines.extend(passes.iter().map(|pass| format!("{indent}{pass}")));
+    }
     lines.push(format!("buffers, {} in all", bytes(plan.bytes())));
     let buffers = plan.buffers.iter().map(|b| vec![format!("  {}", b.name), bytes(b.bytes)]);
     lines.extend(table(&buffers.collect::<Vec<_>>()).lines().map(str::to_owned));

@@ -65,18 +65,13 @@ impl<'a> Approximation<'a> {
         Self { scene: self.scene, request: Request { view, timing: None, ..self.request.clone() } }
     }
 
-    /// The frame that is timed, drawn at k x k positions per pixel: one that is k
-    /// times as wide and as high.
+    /// The frame that is timed, drawn at k x k positions per pixel, one after the
+    /// other.
     #[must_use]
     pub fn timed_at(&self, k: u32) -> Self {
-        let resolution_px = self.request.view.resolution_px.map(|side| side * k);
-        let view = View {
-            resolution_px,
-            positions_per_axis: 1,
-            layers: Vec::new(),
-            frame: self.request.view.frame,
-        };
-        Self { scene: self.scene, request: Request { view, ..self.request.clone() } }
+        let view = View { layers: Vec::new(), ..self.request.view.clone() };
+        let timing = self.request.timing.map(|t| Timing { positions_per_axis: k, ..t });
+        Self { scene: self.scene, request: Request { view, timing, ..self.request.clone() } }
     }
 
     /// Renders and keeps the layers in memory, narrowed as a file would.

@@ -13,7 +13,7 @@ use crate::gpu::recorder::Recorder;
 use crate::methods::{Method, Settings};
 use crate::request::{Filter, Keep, Request};
 use crate::wgsl::Choices;
-use glam::{DAffine3, DVec3};
+use glam::{DAffine3, DVec2, DVec3};
 use scenes::environment::{LatLong, Map};
 use scenes::scene::{Motion, Paint};
 use scenes::{Cube, Environment, LayerName, Scene, Shape, Surface, View};
@@ -89,8 +89,9 @@ fn drawn(scene: &Scene, frame: u32) -> Vec<(DVec3, DVec3)> {
         camera,
         eta_outside: 1.0,
         resolution_px: [32; 2],
+        shift: DVec2::ZERO,
     };
-    let frame = Frame::new(&gpu, &allocator, &composition, &viewed).unwrap();
+    let frame = Frame::new(&gpu, &allocator, &composition, &viewed, &[DVec2::ZERO]).unwrap();
     let mut recorder = Recorder::new(&gpu, false);
     frame.record(&mut recorder, true);
     recorder.finish().unwrap();

@@ -23,6 +23,7 @@ use crate::methods::Settings;
 use crate::plan::counted::Counted;
 use crate::plan::entries::Entries;
 use composed::{CLEAR, CLEAR_OWN, FRAME_OF_LAYERS, LAYERS, Peel, Step};
+use glam::DVec2;
 use scenes::plan::{Kind, Unsupported};
 use strategy::Strategy;
 use wgpu::{BufferUsages, TextureFormat, TextureUsages, TextureViewDimension};
@@ -65,12 +66,15 @@ impl Pass for Peel {
         self.strategy.check(making.bodies.gpu)?;
         let camera = self.camera.unwrap_or(*making.view.camera);
         let view = &Viewed { camera: &camera, resolution_px: self.resolution_px, ..*making.view };
+        // Layers of a camera of their own are the same for every position.
+        let shifts = if self.camera.is_some() { &[DVec2::ZERO] } else { making.shifts };
         let (maker, own) = own(self, making, view)?;
-        let (counts, counted) = count(&maker, self, view, &own.clone().over(making.before))?;
+        let resources = own.clone().over(making.before);
+        let (counts, counted) = count(&maker, self, view, shifts, &resources)?;
         let resources = counts.clone().over(&own).over(making.before);
         let (room, cleared) = make_room(&maker, self, view, counted.capacity)?;
         let resources = room.clone().over(&resources);
-        frame_uniforms::set_layer_capacity(maker.gpu, view, counted.capacity, &resources);
+        frame_uniforms::write(maker.gpu, resources.stored("frame"), view, counted.capacity);
         let (collect, found) = maker.raster(&self.collect, &resources)?;
         let resources = found.over(&resources);
         let step = |step: &Option<Step>| {
@@ -153,11 +157,12 @@ fn pixels(view: &Viewed<'_>) -> u64 {
     view.resolution_px.map(u64::from).iter().product()
 }
 
-/// Interfaces of the pixel that has the most, and what counts them.
+/// Interfaces of the pixel that has the most at any shift, and what counts them.
 fn count(
     maker: &Maker<'_>,
     peel: &Peel,
     view: &Viewed<'_>,
+    shifts: &[DVec2],
     before: &Outputs,
 ) -> Result<(Outputs, Counted), Error> {
     let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
@@ -166,12 +171,18 @@ fn count(
     let mut outputs = Outputs::default();
     outputs.buffer(COUNTS, counts.clone());
     let (count, images) = maker.raster(&peel.count, &outputs.clone().over(before))?;
-    let mut recorder = Recorder::new(maker.gpu, false);
-    recorder.clear(CLEAR, &counts);
-    count.record(&mut recorder);
-    recorder.finish()?;
-    let values = readback::buffer_bytes(maker.gpu, &counts, bytes)?;
-    let most = bytemuck::pod_collect_to_vec::<u8, u32>(&values).into_iter().max().unwrap_or(0);
+    let mut most = 0;
+    for shift in shifts {
+        let shifted = Viewed { shift: *shift, ..*view };
+        frame_uniforms::write(maker.gpu, before.stored("frame"), &shifted, 0);
+        let mut recorder = Recorder::new(maker.gpu, false);
+        recorder.clear(CLEAR, &counts);
+        count.record(&mut recorder);
+        recorder.finish()?;
+        let values = readback::buffer_bytes(maker.gpu, &counts, bytes)?;
+        let values = bytemuck::pod_collect_to_vec::<u8, u32>(&values);
+        most = values.into_iter().fold(most, u32::max);
+    }
     Ok((outputs.over(&images), Counted::new(most, peel.max_layers, pixels(view))))
 }
 

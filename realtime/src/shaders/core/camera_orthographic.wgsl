@@ -23,7 +23,7 @@ fn point_at_depth_lc(position_px: vec2f, depth_m: f32) -> vec3f {
 fn project_px(p_lc: vec3f) -> vec2f {
     let from_eye = p_lc - frame.eye_lc;
     let at = vec2f(dot(from_eye, frame.right_ws), dot(from_eye, frame.up_ws));
-    return (at / frame.half_extent * vec2f(0.5, -0.5) + 0.5) * frame.resolution_px;
+    return (at / frame.half_extent * vec2f(0.5, -0.5) + 0.5) * frame.resolution_px - frame.shift_px;
 }
 
 // Edge of a pixel.

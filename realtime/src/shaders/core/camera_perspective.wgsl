@@ -25,7 +25,7 @@ fn project_px(p_lc: vec3f) -> vec2f {
     let from_eye = p_lc - frame.eye_lc;
     let depth_m = max(dot(from_eye, frame.forward_ws), 1e-30);
     let at = vec2f(dot(from_eye, frame.right_ws), dot(from_eye, frame.up_ws)) / depth_m;
-    return (at / frame.half_extent * vec2f(0.5, -0.5) + 0.5) * frame.resolution_px;
+    return (at / frame.half_extent * vec2f(0.5, -0.5) + 0.5) * frame.resolution_px - frame.shift_px;
 }
 
 // Edge of a pixel at a depth.

@@ -11,6 +11,7 @@ struct Frame {
     forward_ws: vec3f,
     half_extent: vec2f,         // tangents of the half angles, or metres
     resolution_px: vec2f,
+    shift_px: vec2f,            // from a pixel's centre to the position in it that is drawn
     eta_outside: f32,
     radius_m: f32,              // of a ball about the local origin around all bodies
     layer_capacity: u32,        // interfaces per pixel that are kept
@@ -38,7 +39,8 @@ const FLAG_UNSUPPORTED: u32 = 128u;
 
 // Position on the image plane: x to the right, y up.
 fn on_image_plane(position_px: vec2f) -> vec2f {
-    let ndc = vec2f(2.0, -2.0) * position_px / frame.resolution_px + vec2f(-1.0, 1.0);
+    let at_px = position_px + frame.shift_px;
+    let ndc = vec2f(2.0, -2.0) * at_px / frame.resolution_px + vec2f(-1.0, 1.0);
     return ndc * frame.half_extent;
 }
 
