@@ -83,12 +83,7 @@ impl<'a> Composition<'a> {
         plan
     }
 
-    fn plan_at_one(
-        &self,
-        geometry: &Geometry,
-        repeated: bool,
-        counted: Option<Counted>,
-    ) -> Plan {
+    fn plan_at_one(&self, geometry: &Geometry, repeated: bool, counted: Option<Counted>) -> Plan {
         let mut entries = Entries { repeated, counted, ..Entries::new(&self.inputs, geometry) };
         entries.bodies();
         for (listed, pass) in PASSES.iter().zip(self.passes.iter().rev()) {

@@ -51,10 +51,8 @@ impl Light {
 
     /// Keeps the means.
     pub(crate) fn keep(self, positions: usize, layers: &mut Layers) {
-        let sums = [
-            (LayerName::Radiance, 3, self.radiance),
-            (LayerName::Coverage, 1, self.coverage),
-        ];
+        let sums =
+            [(LayerName::Radiance, 3, self.radiance), (LayerName::Coverage, 1, self.coverage)];
         for (name, channels, sums) in sums {
             if let Some(mut sums) = sums {
                 sums.par_iter_mut().for_each(|sum| *sum /= positions as f64);

@@ -2,10 +2,10 @@
 
 use crate::composition::inputs::Inputs;
 use crate::composition::outputs::{camera, outputs};
+use crate::drawing::Drawing;
 use crate::drawn::frame_uniforms::Viewed;
 use crate::drawn::geometry::Geometry;
 use crate::error::Error;
-use crate::drawing::Drawing;
 use crate::frame::{Composition, Frame};
 use crate::frames::{FrameRequest, frames};
 use crate::gpu::Gpu;
@@ -136,12 +136,7 @@ impl<'a> Asked<'a> {
         Ok(self.answer(gpu, times, plan, layers))
     }
 
-    fn frame(
-        &self,
-        gpu: &Gpu,
-        request: &FrameRequest,
-        layers: &mut Layers,
-    ) -> Result<Ran, Error> {
+    fn frame(&self, gpu: &Gpu, request: &FrameRequest, layers: &mut Layers) -> Result<Ran, Error> {
         let composition = Composition::new(self.inputs(request))?;
         let allocator = Allocator::new(gpu);
         let mut geometry = self.drawn(&composition);

@@ -168,5 +168,9 @@ fn text(answer: &Answer) -> String {
 fn timed(pass: &Pass) -> String {
     let time = |t: &Time| format!("{:.2} ms {:?}", t.milliseconds, t.source).to_lowercase();
     let times: Vec<String> = pass.times.iter().map(time).collect();
-    if times.is_empty() { pass.name.clone() } else { format!("{}: {}", pass.name, times.join(", ")) }
+    if times.is_empty() {
+        pass.name.clone()
+    } else {
+        format!("{}: {}", pass.name, times.join(", "))
+    }
 }
