@@ -8,6 +8,7 @@ use crate::drawn::geometry::Geometry;
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::allocator::Allocator;
+use crate::gpu::limits::Limits;
 use crate::gpu::recorder::Recorder;
 use crate::gpu::resources::Outputs;
 use crate::passes::{Listed, Maker, Making, Pass, Ready, Wanted};
@@ -100,6 +101,30 @@ impl<'a> Composition<'a> {
             entries.plan.leave_out(Kind::Code, &what, &reason, 0);
         }
         entries.plan
+    }
+}
+
+impl Composition<'_> {
+    /// Refuses what an adapter does not allow, before anything is allocated.
+    pub(crate) fn check(&self, gpu: &Gpu, counted: Option<Counted>) -> Result<(), Error> {
+        Limits::of(gpu).image("the image", self.inputs.resolution_px)?;
+        self.passes.iter().flatten().try_for_each(|pass| pass.check(gpu, counted))
+    }
+
+    /// Counts the layers of a view as a frame does before it is drawn.
+    pub(crate) fn count(
+        &self,
+        gpu: &Gpu,
+        view: &Viewed<'_>,
+        shifts: &[DVec2],
+    ) -> Result<Option<Counted>, Error> {
+        let allocator = Allocator::new(gpu);
+        let outputs = upload_numbers(&allocator, view)?;
+        let bodies = Maker::new(gpu, &allocator, &view.geometry.bodies, view.resolution_px)?;
+        let bodies = bodies.within(self.within_px);
+        let making = Making { view, shifts, bodies, before: &outputs };
+        let counted = self.passes.iter().flatten().map(|pass| pass.count(&making));
+        Ok(counted.collect::<Result<Vec<_>, _>>()?.into_iter().flatten().next())
     }
 }
 

@@ -5,6 +5,7 @@
 //! pass is a file in `passes` and one row in `frame.rs`. This crate knows nothing of the exact renderer, and only this crate
 //! knows wgpu.
 
+mod asked;
 mod composition;
 mod drawing;
 mod drawn;
@@ -15,6 +16,7 @@ mod gpu;
 pub mod methods;
 mod passes;
 mod plan;
+mod planned;
 mod readout;
 mod render;
 mod request;
@@ -23,5 +25,6 @@ mod wgsl;
 pub use error::Error;
 pub use gpu::{AdapterInfo, Gpu, adapters, noise};
 pub use methods::{METHODS, Method};
-pub use render::{plan, render};
+pub use planned::{plan, plan_on};
+pub use render::render;
 pub use request::{Filter, Keep, Request, Timing};

@@ -10,7 +10,6 @@ use crate::gpu::Gpu;
 use crate::gpu::readback;
 use crate::methods::Method;
 use crate::passes::peel;
-use rayon::prelude::*;
 use scenes::{LayerName, Layers, View};
 
 /// A frame that was rendered, and what of it is kept.
@@ -38,15 +37,18 @@ impl Light {
         Self { radiance, coverage: zeros(LayerName::Coverage, 1) }
     }
 
-    /// Adds radiance and coverage, four numbers per pixel.
-    fn add(&mut self, values: &[f32]) {
-        let radiance = self.radiance.as_deref_mut().unwrap_or_default();
-        radiance.par_chunks_mut(3).zip(values.par_chunks(4)).for_each(|(sums, value)| {
-            sums.iter_mut().zip(value).for_each(|(sum, value)| *sum += f64::from(*value));
-        });
-        let coverage = self.coverage.as_deref_mut().unwrap_or_default();
-        let pixels = coverage.par_iter_mut().zip(values.par_chunks(4));
-        pixels.for_each(|(sum, value)| *sum += f64::from(value[3]));
+    /// Adds radiance and coverage, four numbers per pixel, from some pixel on.
+    fn add(&mut self, first_pixel: usize, values: &[f32]) {
+        let values = || values.chunks_exact(4);
+        if let Some(radiance) = &mut self.radiance {
+            for (sums, value) in radiance[3 * first_pixel..].chunks_exact_mut(3).zip(values()) {
+                sums.iter_mut().zip(value).for_each(|(sum, value)| *sum += f64::from(*value));
+            }
+        }
+        if let Some(coverage) = &mut self.coverage {
+            let pixels = coverage[first_pixel..].iter_mut().zip(values());
+            pixels.for_each(|(sum, value)| *sum += f64::from(value[3]));
+        }
     }
 
     /// Keeps the means.
@@ -55,7 +57,7 @@ impl Light {
             [(LayerName::Radiance, 3, self.radiance), (LayerName::Coverage, 1, self.coverage)];
         for (name, channels, sums) in sums {
             if let Some(mut sums) = sums {
-                sums.par_iter_mut().for_each(|sum| *sum /= positions as f64);
+                sums.iter_mut().for_each(|sum| *sum /= positions as f64);
                 layers.push(name, channels, sums);
             }
         }
@@ -65,8 +67,11 @@ impl Light {
 impl Readout<'_> {
     /// Adds what was shaded at one position.
     pub(crate) fn add_light(&self, light: &mut Light) -> Result<(), Error> {
-        light.add(&self.image("radiance")?);
-        Ok(())
+        let mut first_pixel = 0;
+        readback::texture_rows(self.gpu, self.texture("radiance")?, 4, |row| {
+            light.add(first_pixel, row);
+            first_pixel += row.len() / 4;
+        })
     }
 
     /// Reads every layer that belongs to pixel centres.
@@ -135,12 +140,16 @@ impl Readout<'_> {
         Ok(self.image(name)?.into_iter().map(f64::from).collect())
     }
 
-    fn image(&self, name: &str) -> Result<Vec<f32>, Error> {
-        let texture = self.frame.outputs.image(name).ok_or_else(|| Error::UnknownLayer {
+    fn texture(&self, name: &str) -> Result<&wgpu::Texture, Error> {
+        self.frame.outputs.image(name).ok_or_else(|| Error::UnknownLayer {
             method: self.method.id.to_owned(),
             layer: name.to_owned(),
             available: BUFFERS.join(", "),
-        })?;
+        })
+    }
+
+    fn image(&self, name: &str) -> Result<Vec<f32>, Error> {
+        let texture = self.texture(name)?;
         let channels = if texture.format() == wgpu::TextureFormat::R32Float { 1 } else { 4 };
         readback::texture_values(self.gpu, texture, channels)
     }

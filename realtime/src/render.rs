@@ -1,10 +1,8 @@
-//! What a request comes to: its plan, and its image.
+//! What a request comes to: its image.
 
-use crate::composition::inputs::Inputs;
-use crate::composition::outputs::{camera, outputs};
+use crate::asked::Asked;
+use crate::composition::outputs::outputs;
 use crate::drawing::Drawing;
-use crate::drawn::frame_uniforms::Viewed;
-use crate::drawn::geometry::Geometry;
 use crate::error::Error;
 use crate::frame::{Composition, Frame};
 use crate::frames::{FrameRequest, frames};
@@ -15,33 +13,12 @@ use crate::methods::{Method, Settings};
 use crate::passes::peel;
 use crate::plan::counted::Counted;
 use crate::plan::timing::FrameTimes;
+use crate::planned::{self, add};
 use crate::readout::{Light, Readout};
 use crate::request::Request;
-use crate::wgsl::Choices;
-use scenes::plan::Buffer;
 use scenes::rendering::Provenance;
-use scenes::{Camera, Layers, Plan, Rendering, Scene};
-use std::borrow::Cow;
+use scenes::{Layers, Plan, Rendering, Scene};
 use std::time::Instant;
-
-/// What a method will do with a scene.
-///
-/// # Errors
-/// If the method, a parameter or a layer is unknown.
-pub fn plan(scene: &Scene, request: &Request) -> Result<Plan, Error> {
-    let method = Method::find(&request.method)?;
-    let settings = Settings::new(method, &request.parameters)?;
-    let asked = Asked::new(scene, request, method, &settings)?;
-    let mut plan = Plan::default();
-    for frame in frames(request, &outputs(method, scene, request)?) {
-        let composition = Composition::new(asked.inputs(&frame))?;
-        let geometry = asked.drawn(&composition);
-        let positions = frame.shifts().len();
-        let of_frame = composition.plan(&geometry, positions, frame.is_timed(), None);
-        add(&mut plan, frame.label, of_frame);
-    }
-    Ok(plan)
-}
 
 /// Renders a scene with a method.
 ///
@@ -61,16 +38,6 @@ pub fn render(gpu: &Gpu, scene: &Scene, request: &Request) -> Result<Rendering, 
     gpu.scoped(|| asked.run(gpu, &wanted))
 }
 
-/// What was asked for, looked up and checked.
-struct Asked<'a> {
-    scene: &'a Scene,
-    request: &'a Request,
-    method: &'static Method,
-    settings: &'a Settings,
-    geometry: Geometry,
-    camera: Camera,
-}
-
 /// A frame that was rendered.
 struct Ran {
     plan: Plan,
@@ -84,42 +51,7 @@ struct Ran {
     thickness_ms: Option<f64>,
 }
 
-impl<'a> Asked<'a> {
-    fn new(
-        scene: &'a Scene,
-        request: &'a Request,
-        method: &'static Method,
-        settings: &'a Settings,
-    ) -> Result<Self, Error> {
-        let geometry = Geometry::new(scene, request.view.frame)?;
-        let camera = camera(scene, request);
-        Ok(Self { scene, request, method, settings, geometry, camera })
-    }
-
-    fn inputs<'b>(&'b self, frame: &'b FrameRequest) -> Inputs<'b> {
-        Inputs {
-            method: self.method,
-            settings: self.settings,
-            scene: self.scene,
-            camera: &self.camera,
-            geometry: &self.geometry,
-            request: &frame.request,
-            outputs: &frame.outputs,
-            resolution_px: self.request.view.resolution_px,
-            choices: Choices::default(),
-            index_matched: false,
-        }
-    }
-
-    /// The geometry as a frame draws it.
-    fn drawn(&self, composition: &Composition<'_>) -> Cow<'_, Geometry> {
-        let mut geometry = Cow::Borrowed(&self.geometry);
-        if composition.draws_clipped_cracks() {
-            geometry.to_mut().clip_cracks(self.scene, self.request.view.frame);
-        }
-        geometry
-    }
-
+impl Asked<'_> {
     fn run(&self, gpu: &Gpu, wanted: &[&'static str]) -> Result<Rendering, Error> {
         let mut layers = Layers::new(self.request.view.resolution_px);
         let mut times = FrameTimes::default();
@@ -133,11 +65,13 @@ impl<'a> Asked<'a> {
             times.add(request.label, &ran.executed, &ran.timed, per_frame_ms);
             add(&mut plan, request.label, ran.plan);
         }
+        plan.peak_bytes += planned::bytes_of_layers(&self.request.view);
         Ok(self.answer(gpu, times, plan, layers))
     }
 
     fn frame(&self, gpu: &Gpu, request: &FrameRequest, layers: &mut Layers) -> Result<Ran, Error> {
         let composition = Composition::new(self.inputs(request))?;
+        composition.check(gpu, None)?;
         let allocator = Allocator::new(gpu);
         let mut geometry = self.drawn(&composition);
         let mut thickness_ms = None;
@@ -147,14 +81,7 @@ impl<'a> Asked<'a> {
             thickness_ms = Some(started.elapsed().as_secs_f64() * 1e3);
         }
         let shifts = request.shifts();
-        let view = Viewed {
-            geometry: &geometry,
-            environment: &self.scene.environment,
-            camera: &self.camera,
-            eta_outside: self.scene.media[0].eta.get(),
-            resolution_px: self.request.view.resolution_px,
-            shift: shifts[0],
-        };
+        let view = self.viewed(&geometry, shifts[0]);
         let frame = Frame::new(gpu, &allocator, &composition, &view, &shifts)?;
         let drawing = Drawing { gpu, frame: &frame, view, shifts: &shifts };
         let (executed, timed) = match self.request.timing.filter(|_| request.is_timed()) {
@@ -216,17 +143,4 @@ impl<'a> Asked<'a> {
             },
         }
     }
-}
-
-/// Adds a frame to a plan. What is left out is told once, for the first.
-fn add(plan: &mut Plan, label: &str, of_frame: Plan) {
-    if label.is_empty() {
-        *plan = of_frame;
-        return;
-    }
-    let labelled = |name: &str| format!("{label}{name}");
-    plan.passes.extend(of_frame.passes.iter().map(|name| labelled(name)));
-    let buffers = of_frame.buffers.iter();
-    let labelled = buffers.map(|b| Buffer { name: labelled(&b.name), bytes: b.bytes });
-    plan.buffers.extend(labelled);
 }

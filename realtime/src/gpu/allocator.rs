@@ -2,6 +2,7 @@
 
 use crate::error::Error;
 use crate::gpu::Gpu;
+use crate::gpu::limits::Limits;
 use scenes::plan::Buffer;
 use std::cell::RefCell;
 
@@ -31,17 +32,7 @@ impl<'g> Allocator<'g> {
         format: wgpu::TextureFormat,
         usage: wgpu::TextureUsages,
     ) -> Result<wgpu::Texture, Error> {
-        let limit = self.gpu.device.limits().max_texture_dimension_2d;
-        let largest = size_px[0].max(size_px[1]);
-        if largest > limit {
-            return Err(Error::Limit {
-                what: format!("texture {name}"),
-                needed: u64::from(largest),
-                adapter: self.gpu.info().name.clone(),
-                allowed: u64::from(limit),
-                advice: "lower the resolution or the number of positions per pixel".to_owned(),
-            });
-        }
+        Limits::of(self.gpu).image(&format!("texture {name}"), [size_px[0], size_px[1]])?;
         let texel = u64::from(format.block_copy_size(Some(wgpu::TextureAspect::All)).unwrap_or(4));
         self.note(name, size_px.iter().map(|n| u64::from(*n)).product::<u64>() * texel);
         Ok(self.gpu.device.create_texture(&wgpu::TextureDescriptor {
@@ -66,16 +57,8 @@ impl<'g> Allocator<'g> {
         bytes: u64,
         usage: wgpu::BufferUsages,
     ) -> Result<wgpu::Buffer, Error> {
-        let limit = self.gpu.device.limits().max_buffer_size;
-        if bytes > limit {
-            return Err(Error::Limit {
-                what: format!("buffer {name}"),
-                needed: bytes,
-                adapter: self.gpu.info().name.clone(),
-                allowed: limit,
-                advice: "use fewer triangles, layers or pixels".to_owned(),
-            });
-        }
+        let advice = "use fewer triangles, layers or pixels";
+        Limits::of(self.gpu).buffer(name, bytes, advice)?;
         self.note(name, bytes);
         let descriptor = wgpu::BufferDescriptor {
             label: Some(name),

@@ -2,6 +2,7 @@
 
 pub(crate) mod allocator;
 pub(crate) mod environment_upload;
+pub(crate) mod limits;
 pub(crate) mod readback;
 pub(crate) mod recorder;
 pub(crate) mod resources;

@@ -1,17 +1,37 @@
-//! From GPU memory to ours.
+//! From GPU memory to ours, piece by piece: an image of any size passes through
+//! the same small memory.
 
 use crate::error::Error;
 use crate::gpu::Gpu;
 
 use std::sync::mpsc;
 
+/// Most bytes that are copied at once, unless a row of an image has more.
+pub(crate) const PIECE_BYTES: u64 = 16 << 20;
+
 /// Copies the first bytes of a buffer.
 pub(crate) fn buffer_bytes(gpu: &Gpu, source: &wgpu::Buffer, bytes: u64) -> Result<Vec<u8>, Error> {
-    let staging = staging(gpu, bytes);
-    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-    encoder.copy_buffer_to_buffer(source, 0, &staging, 0, Some(bytes));
-    gpu.queue.submit([encoder.finish()]);
-    read(gpu, &staging, <[u8]>::to_vec)
+    let mut all = Vec::with_capacity(bytes as usize);
+    buffer_pieces(gpu, source, bytes, |piece| all.extend_from_slice(piece))?;
+    Ok(all)
+}
+
+/// Shows the first bytes of a buffer, a multiple of four at a time.
+pub(crate) fn buffer_pieces(
+    gpu: &Gpu,
+    source: &wgpu::Buffer,
+    bytes: u64,
+    mut each: impl FnMut(&[u8]),
+) -> Result<(), Error> {
+    for start in (0..bytes).step_by(PIECE_BYTES as usize) {
+        let size = PIECE_BYTES.min(bytes - start);
+        let staging = staging(gpu, size);
+        let mut encoder = encoder(gpu);
+        encoder.copy_buffer_to_buffer(source, start, &staging, 0, Some(size));
+        gpu.queue.submit([encoder.finish()]);
+        read(gpu, &staging, &mut each)?;
+    }
+    Ok(())
 }
 
 /// Texels of a float texture, `channels` f32 per texel, rows from the top, one
@@ -21,32 +41,66 @@ pub(crate) fn texture_values(
     texture: &wgpu::Texture,
     channels: u32,
 ) -> Result<Vec<f32>, Error> {
+    let size = [channels, texture.width(), texture.height(), texture.depth_or_array_layers()];
+    let mut values = Vec::with_capacity(size.map(|n| n as usize).iter().product());
+    texture_rows(gpu, texture, channels, |row| values.extend_from_slice(row))?;
+    Ok(values)
+}
+
+/// The same, shown row by row.
+pub(crate) fn texture_rows(
+    gpu: &Gpu,
+    texture: &wgpu::Texture,
+    channels: u32,
+    mut each: impl FnMut(&[f32]),
+) -> Result<(), Error> {
     let [width, height] = [texture.width(), texture.height()];
     let row_bytes = 4 * channels * width;
     let padded = row_bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-    let layers = texture.depth_or_array_layers();
-    let staging = staging(gpu, u64::from(padded) * u64::from(height) * u64::from(layers));
-    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    let at_once = (PIECE_BYTES / u64::from(padded)).clamp(1, height.into()) as u32;
+    let mut values = vec![0.0_f32; channels as usize * width as usize];
+    for layer in 0..texture.depth_or_array_layers() {
+        for y in (0..height).step_by(at_once as usize) {
+            let rows = at_once.min(height - y);
+            let staging = copied(gpu, texture, [y, rows, layer], padded);
+            read(gpu, &staging, |bytes| {
+                for row in bytes.chunks_exact(padded as usize) {
+                    bytemuck::cast_slice_mut(&mut values)
+                        .copy_from_slice(&row[..row_bytes as usize]);
+                    each(&values);
+                }
+            })?;
+        }
+    }
+    Ok(())
+}
+
+/// A copy of some rows: the first, how many, and of which layer.
+fn copied(
+    gpu: &Gpu,
+    texture: &wgpu::Texture,
+    [y, rows, layer]: [u32; 3],
+    padded: u32,
+) -> wgpu::Buffer {
+    let staging = staging(gpu, u64::from(padded) * u64::from(rows));
+    let mut encoder = encoder(gpu);
+    let origin = wgpu::Origin3d { x: 0, y, z: layer };
     let layout = wgpu::TexelCopyBufferLayout {
         offset: 0,
         bytes_per_row: Some(padded),
-        rows_per_image: Some(height),
+        rows_per_image: Some(rows),
     };
     encoder.copy_texture_to_buffer(
-        texture.as_image_copy(),
+        wgpu::TexelCopyTextureInfo { origin, ..texture.as_image_copy() },
         wgpu::TexelCopyBufferInfo { buffer: &staging, layout },
-        wgpu::Extent3d { width, height, depth_or_array_layers: layers },
+        wgpu::Extent3d { width: texture.width(), height: rows, depth_or_array_layers: 1 },
     );
     gpu.queue.submit([encoder.finish()]);
-    read(gpu, &staging, |bytes| {
-        let row = channels as usize * width as usize;
-        let mut values = vec![0.0_f32; row * height as usize * layers as usize];
-        let rows = values.chunks_exact_mut(row);
-        for (row, bytes) in rows.zip(bytes.chunks_exact(padded as usize)) {
-            bytemuck::cast_slice_mut(row).copy_from_slice(&bytes[..row_bytes as usize]);
-        }
-        values
-    })
+    staging
+}
+
+fn encoder(gpu: &Gpu) -> wgpu::CommandEncoder {
+    gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default())
 }
 
 fn staging(gpu: &Gpu, bytes: u64) -> wgpu::Buffer {

@@ -17,6 +17,7 @@ pub(crate) use pipelines::Maker;
 use crate::composition::inputs::Inputs;
 use crate::drawn::frame_uniforms::Viewed;
 use crate::error::Error;
+use crate::gpu::Gpu;
 use crate::gpu::recorder::Recorder;
 use crate::gpu::resources::Outputs;
 use crate::plan::counted::Counted;
@@ -30,6 +31,17 @@ pub(crate) trait Pass {
 
     /// Adds its passes and buffers to a plan, and what it leaves out.
     fn plan(&self, entries: &mut Entries<'_>);
+
+    /// Refuses what an adapter does not allow, as far as it is known before, or
+    /// after, layers are counted.
+    fn check(&self, _: &Gpu, _: Option<Counted>) -> Result<(), Error> {
+        Ok(())
+    }
+
+    /// Counts the layers of the view, if it collects any.
+    fn count(&self, _: &Making<'_>) -> Result<Option<Counted>, Error> {
+        Ok(None)
+    }
 
     /// Makes pipelines and memory.
     fn ready(&self, making: &Making<'_>) -> Result<Ready, Error>;

@@ -8,6 +8,7 @@ mod environment;
 mod first_event;
 mod flags;
 mod leaving_out;
+mod limits;
 mod plans;
 mod positions;
 mod requests;

@@ -10,6 +10,10 @@ pub struct Plan {
     pub passes: Vec<String>,
     /// Memory that will exist, by name.
     pub buffers: Vec<Buffer>,
+    /// Most bytes that exist at the same time, with the layers that are handed
+    /// over; 0 where nobody counts them.
+    #[serde(default)]
+    pub peak_bytes: u64,
     /// Variants chosen at compile time, such as `"one convex body"`.
     pub features: Vec<String>,
     /// What this scene does not need.

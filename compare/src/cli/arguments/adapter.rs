@@ -15,4 +15,12 @@ impl AdapterArg {
     pub(in crate::cli) fn open(&self) -> Result<Gpu, Error> {
         Ok(Gpu::open(self.adapter.as_deref())?)
     }
+
+    /// The one that was named, or any; none if there is none at all.
+    pub(in crate::cli) fn open_if_any(&self) -> Result<Option<Gpu>, Error> {
+        match Gpu::open(self.adapter.as_deref()) {
+            Err(realtime::Error::NoAdapter) if self.adapter.is_none() => Ok(None),
+            opened => Ok(Some(opened?)),
+        }
+    }
 }

@@ -1,6 +1,7 @@
 //! `snell plan SCENE`: what will run, what is left out, and why.
 
 use crate::Error;
+use crate::cli::arguments::adapter::AdapterArg;
 use crate::cli::arguments::exact::ExactArgs;
 use crate::cli::arguments::scene::SceneArgs;
 use crate::cli::arguments::values::parameter;
@@ -26,19 +27,26 @@ pub(in crate::cli) struct Args {
         requires = "method", conflicts_with = "reference")]
     parameters: Vec<(String, String)>,
     /// Plan the exact renderer
-    #[arg(long, group = "renderer")]
+    #[arg(long, group = "renderer", conflicts_with = "AdapterArg")]
     reference: bool,
     #[command(flatten)]
     view: ViewArgs,
     #[command(flatten)]
     exact: ExactArgs,
+    #[command(flatten)]
+    adapter: AdapterArg,
 }
+
+const NO_ADAPTER: &str = "there is no GPU adapter to plan for: limits are not checked, layers are \
+     not counted, and the bytes of one are stated";
 
 /// The answer for programs.
 #[derive(Serialize)]
 struct Answer<'a> {
     scene: &'a str,
     renderer: String,
+    /// That the plan is for; none for the exact renderer, and where there is none.
+    adapter: Option<String>,
     total_bytes: u64,
     #[serde(flatten)]
     plan: &'a Plan,
@@ -47,13 +55,24 @@ struct Answer<'a> {
 pub(in crate::cli) fn run(args: &Args, output: Output) -> Result<Status, Error> {
     let scene = args.scene.load(output)?;
     let view = args.view.view(&scene)?;
+    let mut adapter = None;
     let (renderer, plan) = match &args.method {
         Some(method) => {
             let parameters = args.parameters.iter().cloned().collect();
             let keep = realtime::Keep::Needed;
             let request =
                 realtime::Request { parameters, ..realtime::Request::new(view, method, keep) };
-            (request.method.clone(), realtime::plan(&scene, &request)?)
+            let plan = match args.adapter.open_if_any()? {
+                Some(gpu) => {
+                    adapter = Some(gpu.info().name.clone());
+                    realtime::plan_on(&gpu, &scene, &request)?
+                }
+                None => {
+                    output.warn(method, &[NO_ADAPTER.to_owned()])?;
+                    realtime::plan(&scene, &request)?
+                }
+            };
+            (request.method.clone(), plan)
         }
         None => {
             let request = args.exact.request(view, args.view.positions_given())?;
@@ -62,9 +81,11 @@ pub(in crate::cli) fn run(args: &Args, output: Output) -> Result<Status, Error> 
     };
     if output.json {
         let (scene, total_bytes) = (scene.name.as_str(), plan.bytes());
-        output.object("snell.plan/1", &Answer { scene, renderer, total_bytes, plan: &plan })?;
+        let answer = Answer { scene, renderer, adapter, total_bytes, plan: &plan };
+        output.object("snell.plan/1", &answer)?;
     } else {
         let mut lines = text(&plan);
+        lines.extend(adapter.map(|name| format!("for {name}, which allows it")));
         let warnings = output.warnings.all();
         lines.extend((!warnings.is_empty()).then(|| "warnings".to_owned()));
         lines.extend(warnings.iter().map(|warning| format!("  {warning}")));
@@ -81,6 +102,13 @@ fn text(plan: &Plan) -> Vec<String> {
         lines.extend(passes.iter().map(|pass| format!("{indent}{pass}")));
     }
     lines.push(format!("buffers, {} in all", bytes(plan.bytes())));
+    if plan.peak_bytes > 0 {
+        lines.push(format!(
+            "  at most {} at once ({} bytes), with the layers that are handed over",
+            bytes(plan.peak_bytes),
+            plan.peak_bytes
+        ));
+    }
     let buffers = plan.buffers.iter().map(|b| vec![format!("  {}", b.name), bytes(b.bytes)]);
     lines.extend(table(&buffers.collect::<Vec<_>>()).lines().map(str::to_owned));
     if !plan.features.is_empty() {

@@ -16,6 +16,7 @@ use crate::drawn::frame_uniforms::{self, Viewed};
 use crate::drawn::uniforms;
 use crate::error::Error;
 use crate::gpu::Gpu;
+use crate::gpu::limits::Limits;
 use crate::gpu::readback;
 use crate::gpu::recorder::Recorder;
 use crate::gpu::resources::Outputs;
@@ -61,16 +62,37 @@ impl Pass for Peel {
         self.plan_buffers(entries);
     }
 
-    /// Counts the view's layers and makes room for them.
-    fn ready(&self, making: &Making<'_>) -> Result<Ready, Error> {
-        self.strategy.check(making.bodies.gpu)?;
+    fn check(&self, gpu: &Gpu, counted: Option<Counted>) -> Result<(), Error> {
+        self.strategy.check(gpu)?;
+        let limits = Limits::of(gpu);
+        limits.image("the layers", self.resolution_px)?;
+        let pixels: u64 = self.resolution_px.map(u64::from).iter().product();
+        limits.binding(COUNTS, 4 * pixels, "use fewer pixels")?;
+        let Some(counted) = counted else { return Ok(()) };
+        limits.array_layers("the layers", counted.capacity, "lower max_layers")?;
+        if let Some((name, bytes)) = self.strategy.own_buffer(counted.capacity) {
+            let advice = "write peel = slots, lower max_layers, or use fewer pixels";
+            limits.binding(name, bytes * pixels, advice)?;
+        }
+        Ok(())
+    }
+
+    fn count(&self, making: &Making<'_>) -> Result<Option<Counted>, Error> {
         let camera = self.camera.unwrap_or(*making.view.camera);
         let view = &Viewed { camera: &camera, resolution_px: self.resolution_px, ..*making.view };
-        // Layers of a camera of their own are the same for every position.
-        let shifts = if self.camera.is_some() { &[DVec2::ZERO] } else { making.shifts };
+        let (maker, own) = own(self, making, view)?;
+        let resources = own.over(making.before);
+        Ok(Some(count(&maker, self, view, making.shifts, &resources)?.1))
+    }
+
+    /// Counts the view's layers and makes room for them.
+    fn ready(&self, making: &Making<'_>) -> Result<Ready, Error> {
+        let camera = self.camera.unwrap_or(*making.view.camera);
+        let view = &Viewed { camera: &camera, resolution_px: self.resolution_px, ..*making.view };
         let (maker, own) = own(self, making, view)?;
         let resources = own.clone().over(making.before);
-        let (counts, counted) = count(&maker, self, view, shifts, &resources)?;
+        let (counts, counted) = count(&maker, self, view, making.shifts, &resources)?;
+        self.check(maker.gpu, Some(counted))?;
         let resources = counts.clone().over(&own).over(making.before);
         let (room, cleared) = make_room(&maker, self, view, counted.capacity)?;
         let resources = room.clone().over(&resources);
@@ -172,6 +194,8 @@ fn count(
     outputs.buffer(COUNTS, counts.clone());
     let (count, images) = maker.raster(&peel.count, &outputs.clone().over(before))?;
     let mut most = 0;
+    // Layers of a camera of their own are the same for every position.
+    let shifts = if peel.camera.is_some() { &[DVec2::ZERO] } else { shifts };
     for shift in shifts {
         let shifted = Viewed { shift: *shift, ..*view };
         frame_uniforms::write(maker.gpu, before.stored("frame"), &shifted, 0);
@@ -179,9 +203,10 @@ fn count(
         recorder.clear(CLEAR, &counts);
         count.record(&mut recorder);
         recorder.finish()?;
-        let values = readback::buffer_bytes(maker.gpu, &counts, bytes)?;
-        let values = bytemuck::pod_collect_to_vec::<u8, u32>(&values);
-        most = values.into_iter().fold(most, u32::max);
+        readback::buffer_pieces(maker.gpu, &counts, bytes, |piece| {
+            let counts = bytemuck::pod_collect_to_vec::<u8, u32>(piece);
+            most = counts.into_iter().fold(most, u32::max);
+        })?;
     }
     Ok((outputs.over(&images), Counted::new(most, peel.max_layers, pixels(view))))
 }
@@ -205,16 +230,6 @@ fn make_room(
         return Ok((outputs, None));
     };
     let needed = bytes_per_pixel * pixels(view);
-    let allowed = maker.gpu.device.limits().max_storage_buffer_binding_size;
-    if needed > allowed {
-        return Err(Error::Limit {
-            what: format!("buffer {name}"),
-            needed,
-            adapter: maker.gpu.info().name.clone(),
-            allowed,
-            advice: "write peel = slots, lower max_layers, or use fewer pixels".to_owned(),
-        });
-    }
     let usage = BufferUsages::STORAGE | BufferUsages::COPY_DST;
     outputs.buffer(name, maker.allocator.buffer(name, needed, usage)?);
     Ok((outputs, Some(name)))
