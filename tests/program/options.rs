@@ -128,6 +128,7 @@ const TABLE: &[(&str, &str, &str, How)] = &[
     ("realtime", "", "--out", Elsewhere("every_option_shows")),
     ("plan", "plan s.toml", "--method", Answer("--method undeviated")),
     ("plan", "plan s.toml", "--reference", Answer("--reference")),
+    ("plan", "plan s.toml -m multi", "--adapter", Refused("--adapter no-such", "no-such")),
     ("plan", "plan s.toml --reference", "--map", Refused("--map no.exr", "no.exr")),
     ("plan", "plan s.toml --reference", "--eta", Refused("--eta 0.5", "below 1")),
     ("plan", "plan s.toml --reference", "--param", Refused("--param a=1", "--reference")),

@@ -42,10 +42,8 @@ fn the_peak_counts_what_is_handed_over() {
     let peak = |layers: &[LayerName]| {
         realtime::plan_on(&GPU, &scene, &request(&scene, "blended", layers)).unwrap().peak_bytes
     };
-    let [light, covered] = [
-        peak(&[LayerName::Radiance]),
-        peak(&[LayerName::Radiance, LayerName::Coverage]),
-    ];
+    let [light, covered] =
+        [peak(&[LayerName::Radiance]), peak(&[LayerName::Radiance, LayerName::Coverage])];
     assert_eq!(covered, light + 8 * 32 * 16);
 }
 
