@@ -53,6 +53,8 @@ impl Limit {
         match self.metric.describe().better {
             Better::Lower => value <= self.value,
             Better::Higher => value >= self.value,
+            // A user who sets a limit on a share means its upper end.
+            Better::Neither => value <= self.value,
             Better::NearZero => value.abs() <= self.value,
         }
     }

@@ -13,6 +13,8 @@ pub enum Metric {
     ExitUnmatched,
     RelMse,
     RelMseTrimmed,
+    WorstThousandth,
+    WorstHundred,
     HdrFlip,
     LdrFlip,
     Bias,
@@ -39,6 +41,8 @@ pub enum Better {
     Higher,
     /// The closer to zero the better.
     NearZero,
+    /// Neither: it tells how to read another metric.
+    Neither,
 }
 
 /// The layer that a metric compares.
@@ -73,7 +77,7 @@ pub struct Description {
     pub if_equal: Option<f64>,
 }
 
-use Better::{Higher, Lower, NearZero};
+use Better::{Higher, Lower, NearZero, Neither};
 use Encoding::{Display, Linear};
 
 /// An error of radiance in any encoding, 0 for equal images.
@@ -114,7 +118,7 @@ const TONE_MAPPED_SSIM: &str =
 
 impl Metric {
     /// Every metric, figures of merit first.
-    pub const ALL: [Self; 22] = [
+    pub const ALL: [Self; 24] = [
         Self::ExitAngleMedian,
         Self::ExitAngleP95,
         Self::ExitAngleMean,
@@ -122,6 +126,8 @@ impl Metric {
         Self::ExitUnmatched,
         Self::RelMse,
         Self::RelMseTrimmed,
+        Self::WorstThousandth,
+        Self::WorstHundred,
         Self::HdrFlip,
         Self::LdrFlip,
         Self::Bias,
@@ -170,6 +176,14 @@ impl Metric {
             Self::RelMseTrimmed => {
                 let formula = "relmse_e1e-2 without the ⌊N/1000⌋ worst pixels";
                 new("relmse_e1e-2_trim0.1", "", up, Lower, formula, PLAIN)
+            }
+            Self::WorstThousandth => {
+                let formula = "share of relmse_e1e-2 that the ⌊N/1000⌋ worst pixels carry";
+                new("relmse_e1e-2_share_worst0.1", "", "0 to 1", Neither, formula, PLAIN)
+            }
+            Self::WorstHundred => {
+                let formula = "share of relmse_e1e-2 that the 100 worst pixels carry";
+                new("relmse_e1e-2_share_worst100", "", "0 to 1", Neither, formula, PLAIN)
             }
             Self::HdrFlip => {
                 let formula = "mean HDR-FLIP, ACES, 67.02 pixels per degree, pinned exposures";

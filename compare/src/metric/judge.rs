@@ -2,6 +2,7 @@
 
 use super::judgement_error::JudgementError;
 use super::pair::{Answer, Pair, Sides, values_not_finite};
+use super::spread;
 use super::{Candidate, Compared, Mask, Measurement, Metric, Reference, Selection};
 use crate::results::{NotDone, Validity};
 use rayon::prelude::*;
@@ -90,6 +91,7 @@ fn measure(
         mask,
         value: None,
         interval: None,
+        interval_of: String::new(),
         n: 0,
         status: Validity::Ok,
         reason: String::new(),
@@ -106,6 +108,15 @@ fn measure(
         found.reason = "the images are equal, nothing was computed".to_owned();
     } else {
         fill(&mut found, pair.answer(metric, sides, pixels));
+        if let (Validity::Ok, None, Some(value)) = (found.status, found.interval, found.value) {
+            match spread::interval(pair, metric, sides, pixels, value) {
+                Ok(interval) => found.interval = Some(interval),
+                Err(reason) => found.interval_of = format!("none: {reason}"),
+            }
+            if found.interval.is_some() {
+                found.interval_of = spread::SOURCE.to_owned();
+            }
+        }
     }
     Ok(found)
 }
@@ -131,6 +142,7 @@ fn fill(found: &mut Measurement, answer: Answer) {
         Answer::Corrected(error, n) => {
             (found.value, found.n, found.interval) =
                 (Some(error.corrected), n, Some(error.interval));
+            found.interval_of = "the variance layer of the reference".to_owned();
         }
         Answer::Value(value, _) => {
             found.status = Validity::Undefined;

@@ -13,6 +13,7 @@ mod judgement_error;
 mod pair;
 pub mod pu21;
 pub mod relative;
+mod spread;
 pub mod ssim;
 pub mod stack;
 
@@ -79,8 +80,10 @@ pub struct Measurement {
     pub mask: Mask,
     /// The number, if there is one.
     pub value: Option<f64>,
-    /// 95 % interval, where the noise of the reference is known.
+    /// 95 % interval of the value, if it has one.
     pub interval: Option<(f64, f64)>,
+    /// What the interval is of, or why there is none.
+    pub interval_of: String,
     /// Pixels behind the value.
     pub n: u64,
     /// Whether the value can be used.
@@ -105,6 +108,7 @@ impl Measurement {
             value: self.value,
             ci_lo: self.interval.map(|(lo, _)| lo),
             ci_hi: self.interval.map(|(_, hi)| hi),
+            ci_of: self.interval_of.clone(),
             n: self.n,
             status: self.status,
             reason: self.reason.clone(),

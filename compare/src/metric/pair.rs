@@ -25,7 +25,12 @@ pub(super) struct Pair<'a> {
     pub(super) variance: Option<&'a [f64]>,
     coverage: Option<&'a [f64]>,
     flip: OnceLock<flip::FlipMap>,
+    /// Maps of the three channels, made once for all sets of pixels.
+    ssim: OnceLock<Option<SsimMaps>>,
 }
+
+/// SSIM of every window of each channel, row by row.
+type SsimMaps = [Vec<f64>; 3];
 
 /// A value, or why there is none.
 pub(super) enum Answer {
@@ -68,6 +73,7 @@ impl<'a> Pair<'a> {
             variance: three(reference, &LayerName::Variance).map(|layer| layer.data.as_slice()),
             coverage: reference.get(&LayerName::Coverage).map(|layer| layer.data.as_slice()),
             flip: OnceLock::new(),
+            ssim: OnceLock::new(),
         })
     }
 
@@ -107,6 +113,10 @@ impl<'a> Pair<'a> {
                 None => number(relative::relmse(r, t, 1e-2)),
             },
             Metric::RelMseTrimmed => number(relative::relmse_trimmed(r, t, 1e-2, 1e-3)),
+            Metric::WorstThousandth => {
+                number(relative::worst_share(r, t, 1e-2, r.len() / 3 / 1000))
+            }
+            Metric::WorstHundred => number(relative::worst_share(r, t, 1e-2, 100)),
             Metric::MseCorrected => match self.variance {
                 Some(variance) => {
                     let variance = gather(variance, pixels);
@@ -120,10 +130,7 @@ impl<'a> Pair<'a> {
             Metric::Pu21Psnr => decibels(pu21::pu21_psnr_db(r, t, self.selection.nits_per_unit)),
             Metric::Psnr => decibels(display::psnr_db(r, t, 1.0)),
             Metric::PsnrToneMapped => decibels(display::psnr_db(&codes(r), &codes(t), 255.0)),
-            Metric::Ssim => self.ssim(sides.reference, sides.candidate, 1.0, pixels),
-            Metric::SsimToneMapped => {
-                self.ssim(&codes(sides.reference), &codes(sides.candidate), 255.0, pixels)
-            }
+            Metric::Ssim | Metric::SsimToneMapped => self.ssim(sides, pixels),
             Metric::ExitUnmatched => match unmatched_share(r, t) {
                 Some(share) => number(share),
                 None => Answer::Undefined("no pixel has an exit".to_owned()),
@@ -161,19 +168,33 @@ impl<'a> Pair<'a> {
         }
     }
 
+    /// The maps of SSIM: of code values, which linear radiance gets by tone mapping. A pair
+    /// has one encoding, so that it has one of both.
+    fn ssim_maps(&self, sides: Sides) -> Option<SsimMaps> {
+        let (r, t, range) = match self.selection.encoding {
+            Encoding::Display => (sides.reference.into(), sides.candidate.into(), 1.0),
+            Encoding::Linear => {
+                let [r, t] = [sides.reference, sides.candidate].map(|side| codes(side).into());
+                (r, t, 255.0)
+            }
+        };
+        let one = |image: &std::borrow::Cow<[f64]>, channel: usize| -> Vec<f64> {
+            image.iter().skip(channel).step_by(3).copied().collect()
+        };
+        let map = |channel| ssim::ssim_map(&one(&r, channel), &one(&t, channel), self.size_px, range);
+        Some([map(0)?, map(1)?, map(2)?])
+    }
+
     /// Mean SSIM of the three channels over the pixels that have a window.
-    fn ssim(&self, r: &[f64], t: &[f64], range: f64, pixels: Option<&[usize]>) -> Answer {
+    fn ssim(&self, sides: Sides, pixels: Option<&[usize]>) -> Answer {
+        let Some(maps) = self.ssim.get_or_init(|| self.ssim_maps(sides)) else {
+            return Answer::Undefined("SSIM needs 11x11 pixels".to_owned());
+        };
         let [width, _] = self.size_px;
         let inner = width.saturating_sub(ssim::SMALLEST_SIDE_PX - 1);
         let border = ssim::SMALLEST_SIDE_PX / 2;
         let mut values = Vec::new();
-        for channel in 0..3 {
-            let one = |image: &[f64]| -> Vec<f64> {
-                image.iter().skip(channel).step_by(3).copied().collect()
-            };
-            let Some(map) = ssim::ssim_map(&one(r), &one(t), self.size_px, range) else {
-                return Answer::Undefined("SSIM needs 11x11 pixels".to_owned());
-            };
+        for map in maps {
             match pixels {
                 None => values.extend(map),
                 Some(pixels) => values.extend(pixels.iter().filter_map(|&pixel| {

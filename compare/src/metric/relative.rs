@@ -46,6 +46,18 @@ pub fn relmse_trimmed(reference: &[f64], candidate: &[f64], epsilon: f64, share:
     sum(pixels[..kept].iter().copied()) / kept as f64
 }
 
+/// Share of [`relmse`] that its `count` worst pixels carry; 0 where it is 0.
+///
+/// Near 1 the metric tells of these pixels and of nothing else.
+#[must_use]
+pub fn worst_share(reference: &[f64], candidate: &[f64], epsilon: f64, count: usize) -> f64 {
+    let mut pixels = relmse_map(reference, candidate, epsilon);
+    pixels.sort_unstable_by(|a, b| b.total_cmp(a));
+    let all = sum(pixels.iter().copied());
+    let worst = sum(pixels.iter().take(count).copied());
+    if all > 0.0 { worst / all } else { 0.0 }
+}
+
 /// Mean of |d| / (|r| + ε).
 ///
 /// Unit: none (1 = 100 %). Range: 0 (best) upwards.
@@ -62,4 +74,21 @@ pub fn mape(reference: &[f64], candidate: &[f64], epsilon: f64) -> f64 {
 pub fn smape(reference: &[f64], candidate: &[f64], epsilon: f64) -> f64 {
     let terms = reference.iter().zip(candidate);
     mean(terms.map(|(r, t)| 2.0 * (t - r).abs() / (r.abs() + t.abs() + 2.0 * epsilon)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_worst_pixel_carries_its_share() {
+        let reference = [1.0; 12];
+        let mut candidate = [1.1; 12];
+        candidate[..3].fill(1.3);
+        // 0.3² beside three times 0.1²: nine of twelve parts.
+        assert!((worst_share(&reference, &candidate, 0.0, 1) - 0.75).abs() < 1e-12);
+        assert_eq!(worst_share(&reference, &candidate, 0.0, 0), 0.0);
+        assert!((worst_share(&reference, &candidate, 0.0, 100) - 1.0).abs() < 1e-12);
+        assert_eq!(worst_share(&reference, &reference, 0.01, 1), 0.0);
+    }
 }

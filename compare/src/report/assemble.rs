@@ -1,10 +1,11 @@
 //! From rows and image files to what a report shows.
 
 use super::number::{bytes, digits, duration};
-use super::numbers::{Numbers, is_better, usable};
+use super::numbers::{Numbers, usable};
 use super::page::{Cell, MethodView, Page, SceneView};
 use super::pictures::SceneImages;
 use super::plot::marker_image;
+use super::ranking::{self, Ranked};
 use super::runs::{MERITS, display_name, find, methods_of, styles};
 use super::{Options, ReportError, citations, folder, scene_plots, verdict, viewer};
 use crate::metric::{Better, Mask, Metric};
@@ -66,7 +67,7 @@ fn scene_view(
         .iter()
         .map(|run| method_view(run, display_name(study, run), numbers, study, styles))
         .collect();
-    mark_best(&mut methods, &runs, numbers, study);
+    mark_best(&mut methods, &runs, entry, numbers, study);
     let reference_run =
         study.runs.iter().find(|run| run.scene == entry.name && run.method == REFERENCE);
     SceneView {
@@ -113,6 +114,10 @@ fn method_view(
         cells: MERITS.map(|(metric, ..)| cell(metric, find(numbers, run, metric))).to_vec(),
         time: Cell {
             text: time.and_then(usable).map_or("—".to_owned(), duration),
+            spread: time
+                .and_then(|row| row.ci_lo.zip(row.ci_hi))
+                .map(|(low, high)| half_width((low, high), 1.0))
+                .unwrap_or_default(),
             note: time.map(|row| format!("{}, {} frames", row.metric, row.n)).unwrap_or_default(),
             ..Cell::default()
         },
@@ -151,8 +156,11 @@ fn number_line(row: &ResultRow) -> [String; 5] {
         (None, _) => "—".to_owned(),
     };
     let interval = match (row.ci_lo, row.ci_hi) {
-        (Some(low), Some(high)) => format!("95 %: {} to {} ", digits(low), digits(high)),
-        _ => String::new(),
+        (Some(low), Some(high)) => {
+            format!("95 %: {} to {} ({}) ", digits(low), digits(high), row.ci_of)
+        }
+        _ if row.ci_of.is_empty() => String::new(),
+        _ => format!("no interval, {} ", row.ci_of.trim_start_matches("none: ")),
     };
     let note = match row.status {
         Validity::Ok => String::new(),
@@ -169,49 +177,72 @@ fn number_line(row: &ResultRow) -> [String; 5] {
     ]
 }
 
+/// ` ± 0.2` of an interval; empty where it has no width.
+fn half_width((low, high): (f64, f64), scale: f64) -> String {
+    let half = 0.5 * scale * (high - low);
+    if half > 0.0 { format!(" ± {}", digits(half)) } else { String::new() }
+}
+
 fn cell(metric: Metric, row: Option<&ResultRow>) -> Cell {
     let Some(row) = row else {
         let note = "not measured".to_owned();
         return Cell { text: "—".to_owned(), note, ..Cell::default() };
     };
-    let scale = if metric == Metric::ExitWithin1Deg { 100.0 } else { 1.0 };
+    let in_percent = matches!(metric, Metric::ExitWithin1Deg | Metric::WorstThousandth);
+    let scale = if in_percent { 100.0 } else { 1.0 };
     match usable(row) {
         Some(value) => {
             let full = match (row.ci_lo, row.ci_hi) {
                 (Some(low), Some(high)) => format!("{value} ({low} to {high}), n = {}", row.n),
                 _ => format!("{value}, n = {}", row.n),
             };
-            Cell { text: digits(scale * value), note: full, ..Cell::default() }
+            let spread = row.ci_lo.zip(row.ci_hi).map(|ends| half_width(ends, scale));
+            let spread = spread.unwrap_or_default();
+            Cell { text: digits(scale * value), spread, note: full, ..Cell::default() }
         }
         None => Cell {
             text: if row.status == Validity::Invalid { "invalid" } else { "—" }.to_owned(),
             note: row.reason.clone(),
             invalid: row.status == Validity::Invalid,
-            best: false,
+            ..Cell::default()
         },
     }
 }
 
-/// Marks the best value of each column and the fastest frame, where more than
-/// one method was measured.
-fn mark_best(views: &mut [MethodView], runs: &[&Run], numbers: &Numbers, study: &Study) {
+/// Marks the best values of each column and the fastest frames, where more than one method
+/// was measured; a column that ranks nothing says so.
+fn mark_best(
+    views: &mut [MethodView],
+    runs: &[&Run],
+    entry: &SceneEntry,
+    numbers: &Numbers,
+    study: &Study,
+) {
     if runs.len() < 2 {
         return;
     }
     for (column, (metric, ..)) in MERITS.into_iter().enumerate() {
-        let value = |i: usize| find(numbers, runs[i], metric).and_then(usable);
-        let best = (0..runs.len())
-            .filter_map(value)
-            .reduce(|a, b| if is_better(metric, b, a) { b } else { a });
-        for (i, view) in views.iter_mut().enumerate() {
-            view.cells[column].best = best.is_some() && value(i) == best;
+        let row = |run: &&Run| find(numbers, run, metric).and_then(Ranked::of);
+        let values: Vec<_> = runs.iter().map(row).collect();
+        let floor = numbers.exact_error(entry, metric, runs[0].positions);
+        let marks = ranking::best(metric, &values, floor);
+        let unranked = !marks.contains(&true) && values.iter().any(Option::is_some);
+        for (view, best) in views.iter_mut().zip(marks) {
+            view.cells[column].best = best;
+            if let (true, Some(floor)) = (unranked, floor) {
+                view.cells[column].note.push_str(&format!(
+                    "; ranks nothing here: the exact renderer itself is off by {} with other \
+                     samples of the pixel",
+                    digits(floor)
+                ));
+            }
         }
     }
-    let time = |i: usize| numbers.time(runs[i], &study.time_metric).and_then(usable);
-    let fastest = (0..runs.len()).filter_map(time).reduce(f64::min);
-    for (i, view) in views.iter_mut().enumerate() {
-        view.time.best = fastest.is_some() && time(i) == fastest;
-    }
+    let time = |run: &&Run| numbers.time(run, &study.time_metric).and_then(Ranked::of);
+    let times: Vec<_> = runs.iter().map(time).collect();
+    // Any error that is the better the lower ranks as a time does.
+    let marks = ranking::best(Metric::Rmse, &times, None);
+    views.iter_mut().zip(marks).for_each(|(view, best)| view.time.best = best);
 }
 
 /// Which way is better.
@@ -220,6 +251,7 @@ fn arrow(metric: Metric) -> &'static str {
         Better::Lower => "↓",
         Better::Higher => "↑",
         Better::NearZero => "→ 0",
+        Better::Neither => "",
     }
 }
 
@@ -230,6 +262,7 @@ fn descriptions() -> Vec<[String; 6]> {
             Better::Lower => "lower",
             Better::Higher => "higher",
             Better::NearZero => "near zero",
+            Better::Neither => "neither",
         };
         [d.name, d.formula, d.unit, d.range, better, d.source].map(str::to_owned)
     });

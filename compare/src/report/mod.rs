@@ -9,6 +9,7 @@ mod numbers;
 mod page;
 pub mod pictures;
 pub mod plot;
+mod ranking;
 mod runs;
 mod scene_plots;
 mod spreadsheet;

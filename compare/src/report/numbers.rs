@@ -1,7 +1,7 @@
 //! The rows of a study, found by scene, run and metric.
 
 use crate::metric::{Better, Mask, Metric};
-use crate::results::{ResultRow, RowKind, Run, Validity};
+use crate::results::{REFERENCE, ResultRow, RowKind, Run, SceneEntry, Validity};
 use std::collections::BTreeMap;
 
 /// Rows by run, in file order.
@@ -30,6 +30,20 @@ impl<'a> Numbers<'a> {
         self.of(run).iter().copied().find(|row| row.metric == metric && row.mask == Mask::All)
     }
 
+    /// What the exact renderer itself is off by with at most k x k other positions in each
+    /// pixel, the most that were tried; `None` where its curve has no such metric.
+    pub(super) fn exact_error(&self, entry: &SceneEntry, metric: Metric, k: u32) -> Option<f64> {
+        let own = |row: &&ResultRow| {
+            row.method == REFERENCE
+                && row.kind == RowKind::Error
+                && row.metric == metric.describe().name
+                && row.mask == Mask::All
+                && row.positions <= k
+                && entry.holds(row)
+        };
+        self.rows.iter().filter(own).max_by_key(|row| row.positions).and_then(usable)
+    }
+
     /// Time of a frame by the study's clock, else by the wall, else by any.
     pub(super) fn time(&self, run: &Run, clock: &str) -> Option<&'a ResultRow> {
         let times = || self.of(run).iter().copied().filter(|row| row.kind == RowKind::Time);
@@ -51,5 +65,6 @@ pub(super) fn is_better(metric: Metric, a: f64, b: f64) -> bool {
         Better::Lower => a < b,
         Better::Higher => a > b,
         Better::NearZero => a.abs() < b.abs(),
+        Better::Neither => false,
     }
 }

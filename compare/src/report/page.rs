@@ -12,6 +12,8 @@ use std::path::PathBuf;
 pub(super) struct Cell {
     /// What is printed.
     pub(super) text: String,
+    /// Half of its 95 % interval, as ` ± 0.2`; empty where none is known.
+    pub(super) spread: String,
     /// Why there is no number, or the full precision; shown on hover.
     pub(super) note: String,
     /// True for the best of its scene.

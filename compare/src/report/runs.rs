@@ -9,8 +9,8 @@ pub(super) const MERITS: [(Metric, &str, &str); 6] = [
     (Metric::ExitAngleMedian, "exit angle, median", "°"),
     (Metric::ExitAngleP95, "95th percentile", "°"),
     (Metric::ExitWithin1Deg, "within 1°", "%"),
-    (Metric::RelMse, "relMSE ε=0.01", ""),
-    (Metric::RelMseTrimmed, "without the worst 0.1 %", ""),
+    (Metric::RelMseTrimmed, "relMSE ε=0.01, trimmed", ""),
+    (Metric::WorstThousandth, "worst 0.1 % carry", "%"),
     (Metric::HdrFlip, "FLIP", ""),
 ];
 

@@ -15,7 +15,7 @@ const FIRST: [Column; 5] = [
     ("scene", |row| row.scene.clone()),
     ("method", |row| row.method.clone()),
 ];
-const LAST: [Column; 17] = [
+const LAST: [Column; 18] = [
     ("positions", |row| row.positions.to_string()),
     ("frame", |row| row.frame.to_string()),
     ("width_px", |row| row.width_px.to_string()),
@@ -30,6 +30,7 @@ const LAST: [Column; 17] = [
     ("value", |row| or_empty(row.value)),
     ("ci_lo", |row| or_empty(row.ci_lo)),
     ("ci_hi", |row| or_empty(row.ci_hi)),
+    ("ci_of", |row| row.ci_of.clone()),
     ("n", |row| row.n.to_string()),
     ("status", |row| word(&row.status)),
     ("reason", |row| row.reason.clone()),

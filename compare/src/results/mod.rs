@@ -120,6 +120,9 @@ pub struct ResultRow {
     pub ci_lo: Option<f64>,
     /// Upper end of the 95 % interval.
     pub ci_hi: Option<f64>,
+    /// What the interval is of: sub-lattices of pixels, frames, the variance of the
+    /// reference; or why there is none.
+    pub ci_of: String,
     /// Pixels, frames or samples behind the value.
     pub n: u64,
     /// Whether the value can be used.
