@@ -18,6 +18,12 @@ pub(crate) struct Drawing<'a> {
     pub(crate) shifts: &'a [DVec2],
 }
 
+/// A median has a middle.
+const FEWEST_FRAMES: usize = 3;
+/// Frames that are slow may be timed this many times as long as was asked for, until
+/// there are enough of them.
+const MOST_TIMES_AS_LONG: f64 = 10.0;
+
 impl Drawing<'_> {
     /// Draws it at one position after the other, and does something after each.
     /// `first`: also what never changes.
@@ -50,10 +56,13 @@ impl Drawing<'_> {
         }
         let started = Instant::now();
         let mut frames: Vec<_> = (timing.warm_up < 2).then_some(second).into_iter().collect();
-        while frames.len() < 3
-            || (started.elapsed().as_secs_f64() < timing.seconds
-                && frames.len() < timing.max_frames as usize)
-        {
+        let goes_on = |frames: usize| {
+            let elapsed_s = started.elapsed().as_secs_f64();
+            let too_few = frames < timing.min_frames as usize;
+            let wanted_s = timing.seconds * if too_few { MOST_TIMES_AS_LONG } else { 1.0 };
+            elapsed_s < wanted_s && frames < timing.max_frames as usize
+        };
+        while frames.len() < FEWEST_FRAMES || goes_on(frames.len()) {
             frames.push(again()?);
         }
         Ok((passes, frames))

@@ -65,6 +65,8 @@ pub struct Timing {
     pub warm_up: u32,
     /// At least this long, seconds.
     pub seconds: f64,
+    /// At least this many frames, unless they take ten times `seconds`.
+    pub min_frames: u32,
     /// At most this many frames.
     pub max_frames: u32,
     /// k: a frame is drawn at k x k positions in each pixel, one after the other;
@@ -74,6 +76,6 @@ pub struct Timing {
 
 impl Default for Timing {
     fn default() -> Self {
-        Self { warm_up: 2, seconds: 0.3, max_frames: 200, positions_per_axis: 1 }
+        Self { warm_up: 2, seconds: 0.3, min_frames: 20, max_frames: 200, positions_per_axis: 1 }
     }
 }

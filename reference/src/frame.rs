@@ -50,10 +50,7 @@ pub fn render_watched(
     let (layers, counters) = variant.run(&image)?;
     let time = |name: &str, from: Instant, to: Instant| Pass {
         name: name.to_owned(),
-        times: vec![Time {
-            source: TimeSource::Wall,
-            milliseconds: to.duration_since(from).as_secs_f64() * 1e3,
-        }],
+        times: vec![Time::once(TimeSource::Wall, to.duration_since(from).as_secs_f64() * 1e3)],
     };
     Ok(Rendering {
         layers,

@@ -80,7 +80,7 @@ fn run(scene: &str, method: &str, image: &str) -> Run {
         image: PathBuf::from(image),
         passes: vec![Pass {
             name: "shade".to_owned(),
-            times: vec![Time { source: TimeSource::Wall, milliseconds: 1.25 }],
+            times: vec![Time::once(TimeSource::Wall, 1.25)],
         }],
         plan,
         ..Run::default()

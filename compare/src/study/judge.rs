@@ -7,7 +7,8 @@ use crate::metric::{
 use crate::results::{NotDone, RESULT_SCHEMA, ResultRow, RowKind, with_all_kept};
 use crate::study::jobs::{Exact, Made};
 use scenes::layer::flag;
-use scenes::rendering::{Pass, TimeSource};
+use crate::support::statistics::{FEWEST, Interval, median_interval};
+use scenes::rendering::{Pass, Time, TimeSource};
 use scenes::{LayerName, Layers, Scene};
 
 /// The truth about a scene, and how images of it are judged.
@@ -121,15 +122,32 @@ pub(super) fn times(passes: &[Pass], common: &ResultRow) -> Vec<ResultRow> {
     ];
     let row = |(clock, name): (TimeSource, &str)| {
         let all = passes.iter().flat_map(|pass| &pass.times);
-        let times: Vec<f64> =
-            all.filter(|time| time.source == clock).map(|time| time.milliseconds).collect();
-        (!times.is_empty()).then(|| ResultRow {
-            kind: RowKind::Time,
-            unit: "ms".to_owned(),
-            ..number(name, times.iter().sum(), common)
-        })
+        let times: Vec<&Time> = all.filter(|time| time.source == clock).collect();
+        (!times.is_empty()).then(|| of_frame(&times, &number(name, 0.0, common)))
     };
     clocks.into_iter().filter_map(row).collect()
+}
+
+/// The time of a frame whose passes took these, with the interval of its median.
+fn of_frame(passes: &[&Time], named: &ResultRow) -> ResultRow {
+    let row = ResultRow { kind: RowKind::Time, unit: "ms".to_owned(), ..named.clone() };
+    let frames = passes.iter().map(|time| time.frames_ms.len()).min().unwrap_or(0);
+    if frames == 0 {
+        let value = Some(passes.iter().map(|time| time.milliseconds).sum());
+        return ResultRow { value, n: 1, ci_of: "none: measured once".to_owned(), ..row };
+    }
+    let whole = |frame: usize| passes.iter().map(|time| time.frames_ms[frame]).sum();
+    let frames_ms: Vec<f64> = (0..frames).map(whole).collect();
+    let Interval { median, low, high } = median_interval(&frames_ms);
+    let few = if frames < FEWEST { "; so few promise less than 95 %" } else { "" };
+    ResultRow {
+        value: Some(median),
+        ci_lo: Some(low),
+        ci_hi: Some(high),
+        n: frames as u64,
+        ci_of: format!("order statistics of {frames} frames{few}"),
+        ..row
+    }
 }
 
 /// The same of a frame in which nothing was left out.
@@ -155,7 +173,8 @@ fn counts(made: &Made, common: &ResultRow) -> Vec<ResultRow> {
 
 /// A deterministic count as a row.
 pub(super) fn count_row(name: &str, count: f64, common: &ResultRow) -> ResultRow {
-    ResultRow { kind: RowKind::Count, ..number(name, count, common) }
+    let ci_of = "none: a count".to_owned();
+    ResultRow { kind: RowKind::Count, ci_of, ..number(name, count, common) }
 }
 
 fn number(metric: &str, value: f64, common: &ResultRow) -> ResultRow {

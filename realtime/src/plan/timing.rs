@@ -41,7 +41,7 @@ impl FrameTimes {
         self.timed_frames += timed.len() as u64;
         if let Some(milliseconds) = thickness_ms {
             self.count += 1;
-            let times = vec![Time { source: TimeSource::Cpu, milliseconds }];
+            let times = vec![Time::once(TimeSource::Cpu, milliseconds)];
             self.passes.push(Pass { name: format!("{label}{THICKNESS}"), times });
         }
         let passes = executed.iter().enumerate();
@@ -50,9 +50,9 @@ impl FrameTimes {
             times: timestamp(timed, index),
         }));
         if !timed.is_empty() {
-            let frame_ms = median(timed.iter().map(|frame| frame.wall_ms));
-            let milliseconds = frame_ms + thickness_ms.unwrap_or(0.0);
-            let times = vec![Time { source: TimeSource::Wall, milliseconds }];
+            let before_ms = thickness_ms.unwrap_or(0.0);
+            let frames_ms = timed.iter().map(|frame| frame.wall_ms + before_ms).collect();
+            let times = vec![measured(TimeSource::Wall, frames_ms)];
             self.passes.push(Pass { name: format!("{label}{WHOLE_FRAME}"), times });
         }
     }
@@ -64,11 +64,15 @@ fn timestamp(frames: &[Executed], pass: usize) -> Vec<Time> {
     if values.is_empty() {
         return Vec::new();
     }
-    vec![Time { source: TimeSource::Timestamp, milliseconds: median(values.into_iter()) }]
+    vec![measured(TimeSource::Timestamp, values)]
 }
 
-fn median(values: impl Iterator<Item = f64>) -> f64 {
-    let mut sorted: Vec<f64> = values.collect();
+fn measured(source: TimeSource, frames_ms: Vec<f64>) -> Time {
+    Time { source, milliseconds: median(&frames_ms), frames_ms }
+}
+
+fn median(values: &[f64]) -> f64 {
+    let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
     let middle = sorted.len() / 2;
     if sorted.len() % 2 == 1 { sorted[middle] } else { 0.5 * (sorted[middle - 1] + sorted[middle]) }

@@ -57,12 +57,24 @@ pub struct Pass {
 }
 
 /// A duration and who measured it.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Time {
     /// Who measured.
     pub source: TimeSource,
     /// Milliseconds (median where several were taken).
     pub milliseconds: f64,
+    /// Milliseconds of each frame, in the order in which they were drawn; empty where it
+    /// was measured once.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub frames_ms: Vec<f64>,
+}
+
+impl Time {
+    /// Measured once.
+    #[must_use]
+    pub fn once(source: TimeSource, milliseconds: f64) -> Self {
+        Self { source, milliseconds, frames_ms: Vec::new() }
+    }
 }
 
 /// Clocks.

@@ -114,7 +114,7 @@ impl<'a> Approximation<'a> {
         let mut request = full;
         request.view.layers.clear();
         if let Some(timing) = &mut request.timing {
-            *timing = Timing { warm_up: 1, seconds: 0.0, ..*timing };
+            *timing = Timing { warm_up: 1, seconds: 0.0, min_frames: 3, ..*timing };
         }
         Ok((!same).then_some(Self { scene: self.scene, request }))
     }
