@@ -208,8 +208,13 @@ fn every_way_executes_its_plan() {
             let parameters = [("peel", way), ("max_layers", max_layers)];
             let mut request =
                 request(&scene, &parameters, vec![LayerName::Radiance, LayerName::Flags]);
-            request.timing =
-                Some(Timing { warm_up: 0, seconds: 0.0, min_frames: 1, max_frames: 1, positions_per_axis: 1 });
+            request.timing = Some(Timing {
+                warm_up: 0,
+                seconds: 0.0,
+                min_frames: 1,
+                max_frames: 1,
+                positions_per_axis: 1,
+            });
             let rendering = render(&GPU, &scene, &request).unwrap();
             let names = rendering.passes.iter().map(|pass| pass.name.as_str());
             let ran: Vec<_> = names.filter(|name| !name.ends_with(": frame")).collect();

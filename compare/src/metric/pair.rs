@@ -181,7 +181,8 @@ impl<'a> Pair<'a> {
         let one = |image: &std::borrow::Cow<[f64]>, channel: usize| -> Vec<f64> {
             image.iter().skip(channel).step_by(3).copied().collect()
         };
-        let map = |channel| ssim::ssim_map(&one(&r, channel), &one(&t, channel), self.size_px, range);
+        let map =
+            |channel| ssim::ssim_map(&one(&r, channel), &one(&t, channel), self.size_px, range);
         Some([map(0)?, map(1)?, map(2)?])
     }
 

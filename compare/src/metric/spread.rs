@@ -11,8 +11,8 @@
 //! The sixteen interleave, so that their mean scatters less than that of independent ones:
 //! the interval covers at least what it says.
 
-use super::{Better, Metric};
 use super::pair::{Answer, Pair, Sides};
+use super::{Better, Metric};
 use crate::support::statistics::{Estimate, jackknife, mean_of_samples};
 
 /// Every so many pixels in x and y belong to one sub-lattice.

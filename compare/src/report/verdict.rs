@@ -47,9 +47,7 @@ struct Overall {
 
 impl Scenes {
     fn of(study: &Study, numbers: &Numbers) -> Self {
-        let angle = |run: &Run| {
-            numbers.find(run, METRIC.describe().name).and_then(Ranked::of)
-        };
+        let angle = |run: &Run| numbers.find(run, METRIC.describe().name).and_then(Ranked::of);
         let found = |run: &&Run| {
             let time_ms = numbers.time(run, &study.time_metric).and_then(super::numbers::usable);
             Some((display_name(study, run), Found { angle_deg: angle(run)?, time_ms }))
@@ -115,8 +113,12 @@ impl Scenes {
         for (_, methods) in &self.0 {
             let values: Vec<_> = methods.iter().map(|(_, found)| Some(found.angle_deg)).collect();
             let marks = ranking::best(METRIC, &values, None);
-            let best: Vec<&str> =
-                methods.iter().zip(&marks).filter(|(_, best)| **best).map(|(m, _)| m.0.as_str()).collect();
+            let best: Vec<&str> = methods
+                .iter()
+                .zip(&marks)
+                .filter(|(_, best)| **best)
+                .map(|(m, _)| m.0.as_str())
+                .collect();
             shared += usize::from(best.len() > 1);
             best.into_iter().for_each(|name| *wins.entry(name).or_default() += 1);
         }

@@ -6,8 +6,8 @@ use crate::metric::{
 };
 use crate::results::{NotDone, RESULT_SCHEMA, ResultRow, RowKind, with_all_kept};
 use crate::study::jobs::{Exact, Made};
-use scenes::layer::flag;
 use crate::support::statistics::{FEWEST, Interval, median_interval};
+use scenes::layer::flag;
 use scenes::rendering::{Pass, Time, TimeSource};
 use scenes::{LayerName, Layers, Scene};
 

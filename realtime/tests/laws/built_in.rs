@@ -18,8 +18,13 @@ fn every_method_executes_its_plan_and_leaving_out_changes_no_image() {
         for method in METHODS.iter() {
             let layers = [LayerName::Radiance, LayerName::Exit, LayerName::Flags];
             let mut lean = request(&scene, method.id, &layers);
-            lean.timing =
-                Some(Timing { warm_up: 0, seconds: 0.0, min_frames: 1, max_frames: 1, positions_per_axis: 1 });
+            lean.timing = Some(Timing {
+                warm_up: 0,
+                seconds: 0.0,
+                min_frames: 1,
+                max_frames: 1,
+                positions_per_axis: 1,
+            });
             let full = Request { keep: Keep::Everything, ..lean.clone() };
             let [lean, full] = [lean, full].map(|request| {
                 let plan = realtime::plan(&scene, &request).unwrap();

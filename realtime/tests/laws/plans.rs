@@ -137,7 +137,8 @@ pub(crate) fn kept(plan: &Plan, rendering: &Rendering) -> bool {
 
 #[test]
 fn every_method_executes_its_plan() {
-    let timing = Timing { warm_up: 0, seconds: 0.0, min_frames: 1, max_frames: 1, positions_per_axis: 1 };
+    let timing =
+        Timing { warm_up: 0, seconds: 0.0, min_frames: 1, max_frames: 1, positions_per_axis: 1 };
     // The projection changes no pass and no byte: one of the two is enough.
     // Every third: both environments and both kinds of normals occur.
     let plain = scenes().into_iter().filter(|scene| scene.camera.eye.x != 0.0).step_by(3);
@@ -207,8 +208,13 @@ fn a_pass_or_a_byte_too_many_is_noticed() {
 fn a_feature_that_is_taken_away_takes_its_passes_and_buffers_with_it() {
     let names = |scene: &Scene| {
         let mut request = request(scene, "blended", &[LayerName::Radiance]);
-        request.timing =
-            Some(Timing { warm_up: 0, seconds: 0.0, min_frames: 1, max_frames: 1, positions_per_axis: 1 });
+        request.timing = Some(Timing {
+            warm_up: 0,
+            seconds: 0.0,
+            min_frames: 1,
+            max_frames: 1,
+            positions_per_axis: 1,
+        });
         let plan = realtime::plan(scene, &request).unwrap();
         let buffers = plan.buffers.iter().map(|buffer| buffer.name.clone());
         plan.passes.into_iter().chain(buffers).collect::<Vec<_>>()
@@ -282,8 +288,13 @@ fn the_timed_frame_has_one_position_and_the_hardwares_filter() {
     scene.environment = environments()[1].clone();
     let mut request = request(&scene, "one-interface", &many_layers());
     request.view.positions_per_axis = 4;
-    request.timing =
-        Some(Timing { warm_up: 0, seconds: 0.0, min_frames: 1, max_frames: 1, positions_per_axis: 1 });
+    request.timing = Some(Timing {
+        warm_up: 0,
+        seconds: 0.0,
+        min_frames: 1,
+        max_frames: 1,
+        positions_per_axis: 1,
+    });
     let plan = realtime::plan(&scene, &request).unwrap();
     let bytes = |name: &str| plan.buffers.iter().find(|b| b.name == name).map(|b| b.bytes);
     assert_eq!(bytes("radiance"), Some(16 * 16 * 16));

@@ -109,7 +109,8 @@ fn the_middle_position_is_the_centre_and_every_run_has_the_same_bits() {
     let exit = |layers: &Layers| layers.get(&LayerName::Exit).unwrap().data.clone();
     assert_eq!(exit(&first), exit(&rendered(&scene, &at(&asked, 1))));
     // Timing more positions changes no image.
-    let timing = Timing { warm_up: 0, seconds: 0.0, min_frames: 1, max_frames: 1, positions_per_axis: 2 };
+    let timing =
+        Timing { warm_up: 0, seconds: 0.0, min_frames: 1, max_frames: 1, positions_per_axis: 2 };
     asked.timing = Some(timing);
     assert_eq!(first, rendered(&scene, &at(&asked, 3)));
 }
