@@ -20,7 +20,13 @@ fn a_plan_for_an_adapter_is_that_of_what_runs() {
         }
         request.view.resolution_px = [40, 24];
         request.view.positions_per_axis = 2;
-        let timing = Timing { warm_up: 0, seconds: 0.0, min_frames: 1, max_frames: 1, positions_per_axis: 1 };
+        let timing = Timing {
+            warm_up: 0,
+            seconds: 0.0,
+            min_frames: 1,
+            max_frames: 1,
+            positions_per_axis: 1,
+        };
         request.timing = Some(timing);
         let plan = realtime::plan_on(&GPU, &scene, &request).unwrap();
         let rendering = realtime::render(&GPU, &scene, &request).unwrap();
