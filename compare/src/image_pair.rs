@@ -201,7 +201,7 @@ fn add_alpha(judgement: &mut Judgement, reference: &Picture, candidate: &Picture
         mask: Mask::All,
         value: Some(mae(&r, &t)),
         interval: None,
-        interval_of: "none: opacity is compared as it is".to_owned(),
+        ci_of: "none: opacity is compared as it is".to_owned(),
         n: r.len() as u64,
         status: if r == t { Validity::Identical } else { Validity::Ok },
         reason: String::new(),

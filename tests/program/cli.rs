@@ -385,3 +385,60 @@ fn a_caustic_is_written_and_shades_its_receiver() {
     }
     assert!(!std::path::Path::new(&out).exists());
 }
+
+/// Lines of standard error that are objects of a schema.
+fn told(ran: &Ran, schema: &str) -> Vec<Value> {
+    let objects = ran.message.lines().filter_map(|line| serde_json::from_str(line).ok());
+    objects.filter(|object: &Value| object["schema"] == schema).collect()
+}
+
+#[test]
+fn progress_is_told_to_programs_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let image = folder.path().join("a.exr").to_string_lossy().into_owned();
+    let asked = format!("reference ball -o {image} --resolution 64 --positions 2");
+    let lines = told(&snell(&format!("{asked} --progress json")), "snell.progress/1");
+    assert!(!lines.is_empty());
+    let shares: Vec<f64> = lines.iter().map(|line| line["share"].as_f64().unwrap()).collect();
+    assert!(shares.is_sorted() && shares.iter().all(|share| (0.0..=1.0).contains(share)));
+    assert_eq!(lines[0]["work"], "tracing ball");
+    // Unasked, nothing is told where nobody looks.
+    for silent in [asked.clone(), format!("{asked} --progress none")] {
+        assert_eq!(snell(&silent).message, "", "{silent}");
+    }
+}
+
+/// Of a command that fails and of words that are none: text, or one object.
+#[test]
+fn errors_are_objects_where_answers_are() {
+    for (arguments, word) in [
+        ("reference no-such-scene -o a.exr", "no-such-scene"),
+        ("reference ball -o a.exr --no-such-option", "--no-such-option"),
+        ("comprae a b", "compare"),
+    ] {
+        let ran = snell(&format!("{arguments} --json"));
+        assert_eq!((ran.status, ran.answer.as_str()), (Some(2), ""), "{arguments}");
+        let object: Value = serde_json::from_str(&ran.message).unwrap();
+        assert_eq!(object["schema"], "snell.error/1");
+        assert_eq!(object["exit_status"], 2);
+        assert!(object["message"].as_str().unwrap().contains(word), "{object}");
+        let text = snell(arguments).message;
+        assert!(text.starts_with("error: ") && text.contains(word), "{text}");
+    }
+}
+
+#[test]
+fn shells_and_manuals_know_the_commands() {
+    for shell in ["bash", "zsh", "fish"] {
+        let text = done(&format!("completions {shell}"));
+        for word in ["caustics", "budget-ms"] {
+            assert!(text.contains(word), "{shell}: {word}");
+        }
+    }
+    assert!(done("man").contains(".TH snell 1"));
+    let study = done("man study");
+    assert!(study.contains("budget") && study.contains(".TH snell"), "{study}");
+    let ran = snell("man no-such-command");
+    assert_eq!(ran.status, Some(2));
+    assert!(ran.message.contains("write one of scenes, methods"), "{}", ran.message);
+}

@@ -106,6 +106,7 @@ const TABLE: &[(&str, &str, &str, How)] = &[
     ),
     ("reference", REFERENCE, "--threads", Refused("--threads 0", "1..=1024")),
     ("reference", "", "--progressive", Elsewhere("progressive_rendering_ends_with_the_same_image")),
+    ("reference", "", "--progress", Elsewhere("progress_is_told_to_programs_too")),
     ("reference", "", "--out", Elsewhere("every_option_shows")),
     ("realtime", REALTIME, "--map", Image("--map grey.exr")),
     ("realtime", REALTIME, "--eta", Image("--eta 2.0")),

@@ -13,12 +13,13 @@ mod warnings;
 
 use crate::Error;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
-use describe::{adapters, export, mesh, methods, plan, scenes};
+use describe::{adapters, export, mesh, methods, plan, scenes, schema, shell};
 use gate::{baseline, check};
 use judge::{bench, compare, report, study};
 use many::{collect, jobs, run};
 use output::Output;
 use render::{caustics, realtime, reference};
+use serde::Serialize;
 use status::{EXIT_STATUS, Status};
 use std::io::Write;
 use std::process::ExitCode;
@@ -58,6 +59,9 @@ enum Command {
     Baseline(baseline::Args),
     Check(check::Args),
     Bench(bench::Args),
+    Schema(schema::Args),
+    Completions(shell::CompletionsArgs),
+    Man(shell::ManArgs),
 }
 
 impl Command {
@@ -81,6 +85,9 @@ impl Command {
             Self::Baseline(args) => baseline::run(args, output),
             Self::Check(args) => check::run(args, output),
             Self::Bench(args) => bench::run(args, output),
+            Self::Schema(args) => schema::run(args, output),
+            Self::Completions(args) => shell::completions(args, program(), output),
+            Self::Man(args) => shell::man(args, program(), output),
         }
     }
 }
@@ -100,10 +107,28 @@ pub fn main() -> ExitCode {
             ExitCode::SUCCESS
         }
         Err(error) => {
-            let _ = writeln!(std::io::stderr(), "error: {error}");
+            tell(&error.to_string(), cli.json);
             ExitCode::from(2)
         }
     }
+}
+
+/// An error for programs.
+#[derive(Serialize)]
+struct Failure<'a> {
+    schema: &'a str,
+    /// What, where, and what to write instead.
+    message: &'a str,
+    exit_status: u8,
+}
+
+/// Tells why there is no answer: on standard error, as text or as an object.
+fn tell(message: &str, json: bool) {
+    let failure = Failure { schema: "snell.error/1", message, exit_status: 2 };
+    let object = if json { serde_json::to_string(&failure).ok() } else { None };
+    // Nobody listens if standard error is closed.
+    let _ =
+        writeln!(std::io::stderr(), "{}", object.unwrap_or_else(|| format!("error: {message}")));
 }
 
 /// Starts this program again, in the same process, where the GPU's driver would
@@ -122,10 +147,23 @@ fn quiet_the_driver() {
 
 /// The arguments of this process. Wrong ones end it with exit status 2.
 fn parse() -> Cli {
+    let read = program().try_get_matches().and_then(|found| Cli::from_arg_matches(&found));
+    read.unwrap_or_else(|error| {
+        // Help and the version are errors to clap, and answers to people.
+        if error.use_stderr() && std::env::args().any(|word| word == "--json") {
+            let message = error.to_string();
+            tell(message.trim_start_matches("error: ").trim_end(), true);
+            std::process::exit(2);
+        }
+        error.exit()
+    })
+}
+
+/// The commands and their options, each with the exit status at the end of its help.
+fn program() -> clap::Command {
     // A command that can end in more ways says so in its own words.
-    let command = Cli::command().mut_subcommands(|command| match command.get_after_help() {
+    Cli::command().mut_subcommands(|command| match command.get_after_help() {
         Some(_) => command,
         None => command.after_help(EXIT_STATUS),
-    });
-    Cli::from_arg_matches(&command.get_matches()).unwrap_or_else(|error| error.exit())
+    })
 }

@@ -3,6 +3,7 @@
 
 use crate::Error;
 use crate::cli::warnings::Warnings;
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::io::{self, Write};
 
@@ -17,8 +18,8 @@ pub(super) struct Output {
 
 /// An object of the answer: the name and version of its form, what was warned of,
 /// and the rest.
-#[derive(Serialize)]
-struct Line<'a, T> {
+#[derive(Serialize, JsonSchema)]
+pub(super) struct Line<'a, T> {
     schema: &'a str,
     warnings: Vec<String>,
     #[serde(flatten)]

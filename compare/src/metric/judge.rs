@@ -91,7 +91,7 @@ fn measure(
         mask,
         value: None,
         interval: None,
-        interval_of: String::new(),
+        ci_of: String::new(),
         n: 0,
         status: Validity::Ok,
         reason: String::new(),
@@ -111,10 +111,10 @@ fn measure(
         if let (Validity::Ok, None, Some(value)) = (found.status, found.interval, found.value) {
             match spread::interval(pair, metric, sides, pixels, value) {
                 Ok(interval) => found.interval = Some(interval),
-                Err(reason) => found.interval_of = format!("none: {reason}"),
+                Err(reason) => found.ci_of = format!("none: {reason}"),
             }
             if found.interval.is_some() {
-                found.interval_of = spread::SOURCE.to_owned();
+                found.ci_of = spread::SOURCE.to_owned();
             }
         }
     }
@@ -142,7 +142,7 @@ fn fill(found: &mut Measurement, answer: Answer) {
         Answer::Corrected(error, n) => {
             (found.value, found.n, found.interval) =
                 (Some(error.corrected), n, Some(error.interval));
-            found.interval_of = "the variance layer of the reference".to_owned();
+            found.ci_of = "the variance layer of the reference".to_owned();
         }
         Answer::Value(value, _) => {
             found.status = Validity::Undefined;

@@ -26,6 +26,7 @@ pub use crate::results::Mask;
 use crate::results::{ResultRow, RowKind, Validity};
 use scenes::Layers;
 pub use scenes::image::Encoding;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// The image that is taken as true.
@@ -70,7 +71,7 @@ impl Selection {
 }
 
 /// One metric of one pair of images.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Measurement {
     /// Name, with its constants in it.
     pub metric: String,
@@ -81,9 +82,10 @@ pub struct Measurement {
     /// The number, if there is one.
     pub value: Option<f64>,
     /// 95 % interval of the value, if it has one.
+    #[serde(skip)]
     pub interval: Option<(f64, f64)>,
     /// What the interval is of, or why there is none.
-    pub interval_of: String,
+    pub ci_of: String,
     /// Pixels behind the value.
     pub n: u64,
     /// Whether the value can be used.
@@ -108,7 +110,7 @@ impl Measurement {
             value: self.value,
             ci_lo: self.interval.map(|(lo, _)| lo),
             ci_hi: self.interval.map(|(_, hi)| hi),
-            ci_of: self.interval_of.clone(),
+            ci_of: self.ci_of.clone(),
             n: self.n,
             status: self.status,
             reason: self.reason.clone(),

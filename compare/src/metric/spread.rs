@@ -141,7 +141,7 @@ mod tests {
     /// Light tails: normal errors of variance 0.01. Heavy ones: one pixel in fifty is ten
     /// times off, E d² = 0.01 (0.98 + 0.02 · 100).
     #[test]
-    fn the_interval_of_the_squared_error_covers_its_expectation_19_times_in_20() {
+    fn the_ci_of_the_squared_error_covers_its_expectation_19_times_in_20() {
         let light = coverage(Metric::Mse, 0.01, SplitMix64::normal);
         assert!((0.94..=0.99).contains(&light), "{light}");
         let heavy = |random: &mut SplitMix64| {

@@ -1,6 +1,8 @@
 //! Columns that only some rows have: what was set, with its own name and type.
 
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize};
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fmt;
 
@@ -13,7 +15,7 @@ pub const SCENE: &str = "scene.";
 pub const FLIP_EXPOSURES: &str = "flip_exposures.";
 
 /// A number or a word.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Scalar {
     /// A number.
@@ -71,5 +73,28 @@ impl<'de> Deserialize<'de> for Columns {
             Some((name, serde_json::from_value(value).ok()?))
         };
         Ok(Self(fields.into_iter().filter(|(name, _)| ours(name)).filter_map(read).collect()))
+    }
+}
+
+/// Any number of fields whose names start as these do.
+impl JsonSchema for Columns {
+    fn schema_name() -> Cow<'static, str> {
+        "Columns".into()
+    }
+
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let scalar = generator.subschema_for::<Scalar>();
+        let number = generator.subschema_for::<f64>();
+        json_schema!({
+            "type": "object",
+            "patternProperties": {
+                r"^param\.": scalar,
+                r"^(scene|flip_exposures)\.": number,
+            },
+        })
     }
 }

@@ -12,6 +12,7 @@ pub use store::{ResultsError, read_rows, read_study, write_rows, write_study};
 
 use scenes::Plan;
 use scenes::rendering::Pass;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -30,7 +31,9 @@ pub const FLIP_LAYER: &str = "flip";
 pub const REFERENCE: &str = "reference";
 
 /// What a row counts.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
+)]
 #[serde(rename_all = "kebab-case")]
 pub enum RowKind {
     /// An error against the reference.
@@ -44,7 +47,9 @@ pub enum RowKind {
 }
 
 /// Which pixels are judged.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
+)]
 #[serde(rename_all = "kebab-case")]
 pub enum Mask {
     /// The whole image.
@@ -56,7 +61,7 @@ pub enum Mask {
 }
 
 /// Whether a value can be used.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Validity {
     /// The value is the metric.
@@ -72,7 +77,7 @@ pub enum Validity {
 }
 
 /// One number of a study: a row of `results.jsonl` and of `results.csv`.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default)]
 pub struct ResultRow {
     /// [`RESULT_SCHEMA`].
@@ -132,7 +137,7 @@ pub struct ResultRow {
 }
 
 /// Everything about a study that is not a number per scene and method.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default)]
 pub struct Study {
     /// [`STUDY_SCHEMA`].
@@ -167,7 +172,7 @@ pub struct Study {
 }
 
 /// One sentence that is read off the curves of error against time.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default)]
 pub struct Reading {
     /// Name of the [`SceneEntry`].
@@ -218,7 +223,7 @@ impl SceneEntry {
 }
 
 /// One scene of a study, with its numbers at a resolution.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default)]
 pub struct SceneEntry {
     /// Name that no other entry has: the scene's, and what tells this place from
@@ -241,7 +246,7 @@ pub struct SceneEntry {
 }
 
 /// One image: by the exact renderer (`method` = [`REFERENCE`]) or a method.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default)]
 pub struct Run {
     /// Content id, as in the rows.
@@ -271,7 +276,7 @@ pub struct Run {
 }
 
 /// Something that was not done.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default)]
 pub struct NotDone {
     /// What: a scene, `scene × method`, a metric.

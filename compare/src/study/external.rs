@@ -54,7 +54,7 @@ pub(super) fn outcome(
     let moved = shifted(&radiance, size, shift);
     let mut own = Layers::new(truth.layers.resolution_px);
     own.push(LayerName::Radiance, 3, moved);
-    scenes::image::write_exr(&folder.join(IMAGE), &own)?;
+    output::write_image(&folder.join(IMAGE), &own, common)?;
 
     let judged = judge.judged_against(&layers, &own, common)?;
     let mut rows = judged.rows;
@@ -74,7 +74,7 @@ pub(super) fn outcome(
     run.metrics_left_out = judged.left_out;
     if let Some(map) = judged.flip_map {
         run.flip_map = FLIP.into();
-        output::write_flip(&folder.join(FLIP), truth.layers.resolution_px, map)?;
+        output::write_flip(&folder.join(FLIP), common, map)?;
     }
     Ok(Outcome { run: Some(run), rows, left_out, ..Outcome::default() })
 }

@@ -1,10 +1,10 @@
 //! The folder a study leaves behind.
 
 use crate::results::{self, ResultRow, Run, Study};
-use crate::study::jobs::Made;
 use crate::support::files::{self, FileError};
 use crate::{Error, report};
 use scenes::{LayerName, Layers};
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -18,9 +18,18 @@ fn image_place(scene: &str, method: &str) -> PathBuf {
     Path::new("images").join(format!("{}.{}.exr", plain(scene), plain(method)))
 }
 
-/// Copies a stored image to its place.
-pub(super) fn copy_image(made: &Made, to: &Path) -> Result<(), FileError> {
-    copy(&made.image, to)
+/// What a file tells of itself: the row's own names.
+pub(super) fn attributes(row: &ResultRow) -> BTreeMap<String, String> {
+    let set = row.columns.0.iter().map(|(name, value)| (name.clone(), value.to_string()));
+    let named = [("id", &row.id), ("scene", &row.scene), ("method", &row.method)];
+    let named = named.map(|(name, value)| (name.to_owned(), value.clone()));
+    let positions = ("positions".to_owned(), row.positions.to_string());
+    set.chain(named).chain([positions]).collect()
+}
+
+/// Writes the image of a row.
+pub(super) fn write_image(to: &Path, layers: &Layers, row: &ResultRow) -> Result<(), Error> {
+    Ok(scenes::image::write_exr_with(to, layers, &attributes(row))?)
 }
 
 /// Copies the images of a run, which lie in a folder of its own, to their places in
@@ -42,11 +51,12 @@ fn copy(from: &Path, to: &Path) -> Result<(), FileError> {
     files::replace(to, |partial| copy(partial).map_err(FileError::unwritten(to)))
 }
 
-/// Writes the FLIP map of an image, for the report.
-pub(super) fn write_flip(to: &Path, resolution_px: [u32; 2], map: Vec<f64>) -> Result<(), Error> {
+/// Writes the FLIP map of a row's image, for the report.
+pub(super) fn write_flip(to: &Path, row: &ResultRow, map: Vec<f64>) -> Result<(), Error> {
+    let resolution_px = [row.width_px, row.height_px];
     let mut layers = Layers::new(resolution_px);
     layers.push(LayerName::Buffer(results::FLIP_LAYER.to_owned()), 1, map);
-    Ok(scenes::image::write_exr(to, &layers)?)
+    write_image(to, &layers, row)
 }
 
 /// Writes the rows, the study, and the report made of them.

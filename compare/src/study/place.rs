@@ -75,9 +75,9 @@ impl<'a> PlaceWork<'a> {
             warnings: self.scene.warnings.clone(),
             flip_exposures: judge.exposures(),
         };
-        output::copy_image(truth, &folder.join(IMAGE))?;
         let run = self.run(REFERENCE, truth, &self.truth.parameters());
         let common = self.common(&run, truth, judge, untyped(&run.parameters));
+        output::write_image(&folder.join(IMAGE), &truth.layers, &common)?;
         let mut rows = times(&truth.facts.passes, &common);
         for job in &self.curve {
             let made = job.make(store, share)?;
@@ -125,7 +125,15 @@ impl<'a> PlaceWork<'a> {
             variant.set.iter().map(|(name, value)| (name.clone(), value.to_string())).collect();
         let asked =
             Approximation::judged(self.scene, view, method.id, parameters, self.spec.timing_s);
-        let made = asked.make(gpu, &folder.join(IMAGE))?;
+        let named = ResultRow {
+            id: job.id.to_string(),
+            scene: self.scene.name.clone(),
+            method: method.id.to_owned(),
+            columns: self.columns(judge, BTreeMap::new()),
+            positions: view.positions_per_axis,
+            ..ResultRow::default()
+        };
+        let made = asked.make(gpu, &folder.join(IMAGE), output::attributes(&named))?;
         let parameters = &made.facts.provenance.parameters;
         let mut run = Run {
             id: job.id.to_string(),
@@ -146,13 +154,13 @@ impl<'a> PlaceWork<'a> {
             }
         }
         if let Some(full) = if self.spec.thorough { asked.with_all_kept()? } else { None } {
-            let common = ResultRow { positions: 1, ..common };
+            let common = ResultRow { positions: 1, ..common.clone() };
             rows.extend(times_with_all_kept(&full.passes(gpu)?, &common));
         }
         run.metrics_left_out = judged.left_out;
         if let Some(map) = judged.flip_map {
             run.flip_map = FLIP.into();
-            output::write_flip(&folder.join(FLIP), made.layers.resolution_px, map)?;
+            output::write_flip(&folder.join(FLIP), &common, map)?;
         }
         let driver = made.facts.provenance.driver.clone();
         Ok(Outcome { run: Some(run), rows, driver, ..Outcome::default() })

@@ -62,7 +62,7 @@ pub fn write_exr(path: &Path, layers: &Layers) -> Result<(), Error> {
     write_exr_with(path, layers, &BTreeMap::new())
 }
 
-/// As [`write_exr`], with text attributes; each name is written as
+/// As [`write_exr`], with text attributes in UTF-8; each name is written as
 /// `snell:name`.
 ///
 /// # Errors
@@ -84,12 +84,9 @@ pub fn write_exr_with(
     let software = Text::from(concat!("snell ", env!("CARGO_PKG_VERSION")));
     let mut named = LayerAttributes { software_name: Some(software), ..Default::default() };
     for (name, value) in attributes {
-        let value = Text::new_or_none(value).ok_or_else(|| {
-            write_error(path, format!("the attribute {name} is not Latin-1 text: {value}"))
-        })?;
-        let name = Text::new_or_none(format!("snell:{name}"));
-        let name = name.ok_or_else(|| write_error(path, "an attribute's name is not Latin-1"))?;
-        named.other.insert(name, AttributeValue::Text(value));
+        // A name ends the header's list where it is empty, and the text where it is null.
+        let text = |text: &str| Text::from_slice_unchecked(text.replace('\0', " ").as_bytes());
+        named.other.insert(text(&format!("snell:{name}")), AttributeValue::Text(text(value)));
     }
     let part = ::exr::prelude::Layer::new(
         (width, height),

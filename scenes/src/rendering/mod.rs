@@ -7,6 +7,7 @@ pub mod layer;
 pub mod plan;
 
 use crate::{LayerName, Layers, Plan};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -48,7 +49,7 @@ pub struct Rendering {
 }
 
 /// One executed pass.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Pass {
     /// Name, as in the plan.
     pub name: String,
@@ -57,7 +58,7 @@ pub struct Pass {
 }
 
 /// A duration and who measured it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Time {
     /// Who measured.
     pub source: TimeSource,
@@ -78,7 +79,7 @@ impl Time {
 }
 
 /// Clocks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum TimeSource {
     /// GPU timestamp queries.
@@ -90,7 +91,7 @@ pub enum TimeSource {
 }
 
 /// Where a rendering comes from.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Provenance {
     /// `reference` or a method id.
     pub renderer: String,

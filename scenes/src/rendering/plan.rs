@@ -1,10 +1,11 @@
 //! What a renderer will do for a scene, and what it leaves out and why.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Work before it is done. Every renderer makes one, `snell plan` prints it,
 /// and what was executed is recorded elsewhere so that the two can disagree.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Plan {
     /// Passes in execution order.
     pub passes: Vec<String>,
@@ -23,7 +24,7 @@ pub struct Plan {
 }
 
 /// A piece of memory.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Buffer {
     /// Name, the same as its layer if it can be asked for as one.
     pub name: String,
@@ -32,7 +33,7 @@ pub struct Buffer {
 }
 
 /// Something that exists in the program and not in this run.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct LeftOut {
     /// Name of what is missing.
     pub what: String,
@@ -45,7 +46,7 @@ pub struct LeftOut {
 }
 
 /// What can be left out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Kind {
     /// A GPU pass or a stage of the tracer.
@@ -63,7 +64,7 @@ pub enum Kind {
 }
 
 /// A part of the scene that a method cannot show.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Unsupported {
     /// What the scene has.
     pub what: String,

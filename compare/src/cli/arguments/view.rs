@@ -7,6 +7,8 @@ use crate::cli::output::Output;
 use crate::cli::status::Status;
 use crate::report::pictures::Picture;
 use crate::report::pictures::colour_map;
+use crate::results::PARAM;
+use crate::study::cache::Id;
 use crate::support::files;
 use crate::support::repeats::stretches;
 use scenes::rendering::{Pass, Time};
@@ -96,22 +98,35 @@ impl ImageArgs {
         Ok(view)
     }
 
-    /// Writes the image.
-    pub(in crate::cli) fn write(&self, layers: &Layers) -> Result<(), Error> {
+    /// Writes the image; an .exr tells what it is.
+    pub(in crate::cli) fn write(
+        &self,
+        rendering: &Rendering,
+        scene: &str,
+        id: &Id,
+    ) -> Result<(), Error> {
         if is_png(&self.out) {
-            return self.write_png(layers);
+            return self.write_png(&rendering.layers);
         }
         files::make_folder_of(&self.out)?;
-        Ok(scenes::image::write_exr(&self.out, layers)?)
+        let provenance = &rendering.provenance;
+        let named = [("scene", scene), ("method", &provenance.renderer), ("id", id.as_str())];
+        let named = named.map(|(name, value)| (name.to_owned(), value.to_owned()));
+        let parameters = provenance.parameters.iter();
+        let parameters = parameters.map(|(name, value)| (format!("{PARAM}{name}"), value.clone()));
+        let attributes = parameters.chain(named).collect();
+        Ok(scenes::image::write_exr_with(&self.out, &rendering.layers, &attributes)?)
     }
 
     /// Writes the image and answers with what the rendering tells.
     pub(in crate::cli) fn finish(
         &self,
         rendering: &Rendering,
+        scene: &str,
+        id: &Id,
         output: Output,
     ) -> Result<Status, Error> {
-        self.write(&rendering.layers)?;
+        self.write(rendering, scene, id)?;
         self.answer(rendering, output)
     }
 

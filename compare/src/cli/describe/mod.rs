@@ -6,3 +6,5 @@ pub(super) mod mesh;
 pub(super) mod methods;
 pub(super) mod plan;
 pub(super) mod scenes;
+pub(super) mod schema;
+pub(super) mod shell;

@@ -10,6 +10,7 @@ use crate::image_pair::{Comparison, Question, compare_files};
 use crate::metric::{Exposures, Mask, Measurement};
 use crate::results::{NotDone, Validity};
 use scenes::image::Alpha;
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -49,11 +50,18 @@ pub(in crate::cli) struct Args {
     limits: Vec<Limit>,
 }
 
+/// Schema of a line of the answer.
+pub(in crate::cli) const SCHEMA: &str = "snell.measurement/2";
+
 /// A line of the answer for programs.
-#[derive(Serialize)]
-struct Line<'a> {
+#[derive(Serialize, JsonSchema)]
+pub(in crate::cli) struct Line<'a> {
     #[serde(flatten)]
     measurement: &'a Measurement,
+    /// Lower end of the 95 % interval, where one is known.
+    ci_lo: Option<f64>,
+    /// Upper end of the 95 % interval.
+    ci_hi: Option<f64>,
     /// What transparent pixels lie over; `none` where both files are opaque.
     alpha: &'static str,
 }
@@ -67,7 +75,8 @@ pub(in crate::cli) fn run(args: &Args, output: Output) -> Result<Status, Error> 
     let alpha = if has_alpha { alpha.name() } else { "none" };
     if output.json {
         for measurement in &judgement.measurements {
-            output.object("snell.measurement/1", &Line { measurement, alpha })?;
+            let (ci_lo, ci_hi) = measurement.interval.unzip();
+            output.object(SCHEMA, &Line { measurement, ci_lo, ci_hi, alpha })?;
         }
     } else {
         output.line(&table(&text(&judgement.measurements)))?;

@@ -4,6 +4,7 @@ use crate::Error;
 use crate::cli::Status;
 use crate::cli::arguments::adapter::AdapterArg;
 use crate::cli::arguments::cache::store;
+use crate::cli::arguments::progress::ProgressArgs;
 use crate::cli::arguments::study::StudyArgs;
 use crate::cli::output::{Output, table};
 use crate::results::{NotDone, ResultRow, Study};
@@ -25,9 +26,12 @@ pub(in crate::cli) struct Args {
     cache: Option<PathBuf>,
     #[command(flatten)]
     adapter: AdapterArg,
+    #[command(flatten)]
+    progress: ProgressArgs,
 }
 
 pub(in crate::cli) fn run(args: &Args, output: Output) -> Result<Status, Error> {
+    args.progress.choose();
     let spec = args.study.spec(output)?;
     let gpu = args.adapter.open()?;
     let store = store(args.cache.as_deref(), output)?;

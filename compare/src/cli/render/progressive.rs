@@ -4,6 +4,8 @@
 use crate::Error;
 use crate::cli::arguments::view::ImageArgs;
 use crate::cli::output::Output;
+use crate::study::cache::Id;
+use crate::study::jobs::Exact;
 use crate::support::progress::Progress;
 use reference::{Estimator, Level, Paths, Positions, Request, Watch, render_watched};
 use scenes::{LayerName, Rendering, Scene};
@@ -19,16 +21,22 @@ pub(in crate::cli) fn render(
     let stages = stages(request);
     let last = stages.len() - 1;
     for stage in &stages[..last] {
-        image.write(&render_watched(scene, stage, Watch::default())?.layers)?;
+        let rendering = render_watched(scene, stage, Watch::default())?;
+        image.write(&rendering, &scene.name, &exact_id(scene, stage))?;
         tell(stage, started);
     }
     let progress = Progress::new(&format!("tracing {}", scene.name));
     let watch = Watch { progress: Some(&|share| progress.at(share)), ..Watch::default() };
     let rendering = render_watched(scene, &stages[last], watch)?;
     drop(progress);
-    image.write(&rendering.layers)?;
+    image.write(&rendering, &scene.name, &exact_id(scene, request))?;
     tell(&stages[last], started);
     Ok(rendering)
+}
+
+/// Content id of the exact image that is asked for.
+pub(super) fn exact_id(scene: &Scene, request: &Request) -> Id {
+    Exact { scene, request: request.clone() }.id()
 }
 
 fn tell(stage: &Request, started: Instant) {

@@ -7,6 +7,7 @@ use crate::cli::arguments::values::parameter;
 use crate::cli::arguments::view::{ImageArgs, ViewArgs};
 use crate::cli::output::Output;
 use crate::cli::status::Status;
+use crate::study::jobs::Approximation;
 use realtime::{Filter, Keep, Request, Timing};
 
 /// Render one approximation of a scene on the GPU
@@ -50,6 +51,7 @@ pub(in crate::cli) fn run(args: &Args, output: Output) -> Result<Status, Error> 
         keep: if args.keep_all { Keep::Everything } else { Keep::Needed },
     };
     let gpu = args.adapter.open()?;
-    let rendering = realtime::render(&gpu, &scene, &request)?;
-    args.image.finish(&rendering, output)
+    let asked = Approximation { scene: &scene, request };
+    let rendering = realtime::render(&gpu, &scene, &asked.request)?;
+    args.image.finish(&rendering, &scene.name, &asked.id(&gpu), output)
 }

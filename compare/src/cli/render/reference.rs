@@ -1,8 +1,10 @@
 //! `snell reference SCENE -o FILE`: the exact image.
 
+use super::progressive::exact_id;
 use super::{caustics, progressive};
 use crate::Error;
 use crate::cli::arguments::exact::ExactArgs;
+use crate::cli::arguments::progress::ProgressArgs;
 use crate::cli::arguments::scene::SceneArgs;
 use crate::cli::arguments::view::{ImageArgs, ViewArgs};
 use crate::cli::output::Output;
@@ -42,10 +44,13 @@ struct RunningArgs {
     /// last
     #[arg(long)]
     progressive: bool,
+    #[command(flatten)]
+    progress: ProgressArgs,
 }
 
 pub(in crate::cli) fn run(args: &Args, output: Output) -> Result<Status, Error> {
     let started = Instant::now();
+    args.running.progress.choose();
     let scene = args.scene.load(output)?;
     let view = args.image.shown(args.view.view(&scene)?)?;
     let mut request = args.exact.request(view, args.view.positions_given())?;
@@ -65,7 +70,7 @@ pub(in crate::cli) fn run(args: &Args, output: Output) -> Result<Status, Error> 
         let watch = Watch { progress: Some(&|share| progress.at(share)), ..Watch::default() };
         let rendering = reference::render_watched(&scene, &request, watch)?;
         drop(progress);
-        args.image.finish(&rendering, output)
+        args.image.finish(&rendering, &scene.name, &exact_id(&scene, &request), output)
     })
 }
 

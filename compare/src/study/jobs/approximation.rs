@@ -2,6 +2,7 @@
 
 use super::Made;
 use crate::Error;
+use crate::results::PARAM;
 use crate::study::cache::Id;
 use realtime::{Filter, Gpu, Keep, Method, Request, Timing};
 use scenes::rendering::Pass;
@@ -128,12 +129,21 @@ impl<'a> Approximation<'a> {
     }
 
     /// Renders and times the image and writes it to `image`. It is never taken
-    /// from the store: its time is a measurement, not a result that keeps.
+    /// from the store: its time is a measurement, not a result that keeps. The file
+    /// tells what it is by these attributes and the method's parameters.
     ///
     /// # Errors
     /// If the method cannot show the scene or the image cannot be written.
-    pub fn make(&self, gpu: &Gpu, image: &Path) -> Result<Made, Error> {
+    pub fn make(
+        &self,
+        gpu: &Gpu,
+        image: &Path,
+        mut attributes: BTreeMap<String, String>,
+    ) -> Result<Made, Error> {
         let rendering = realtime::render(gpu, self.scene, &self.request)?;
-        Made::write(self.id(gpu), image, rendering)
+        let parameters = rendering.provenance.parameters.iter();
+        attributes
+            .extend(parameters.map(|(name, value)| (format!("{PARAM}{name}"), value.clone())));
+        Made::write(self.id(gpu), image, rendering, &attributes)
     }
 }

@@ -66,13 +66,18 @@ impl Made {
         Self::read(id, &folder)
     }
 
-    /// Writes a rendering's layers to a file and reads them back.
+    /// Writes a rendering's layers to a file, with attributes, and reads them back.
     ///
     /// # Errors
     /// If the file cannot be written or read.
-    pub fn write(id: Id, image: &Path, rendering: Rendering) -> Result<Self, Error> {
+    pub fn write(
+        id: Id,
+        image: &Path,
+        rendering: Rendering,
+        attributes: &BTreeMap<String, String>,
+    ) -> Result<Self, Error> {
         let (layers, facts) = parts(rendering);
-        scenes::image::write_exr(image, &layers)?;
+        scenes::image::write_exr_with(image, &layers, attributes)?;
         Ok(Self { id, image: image.to_owned(), layers: scenes::image::read(image)?, facts })
     }
 

@@ -62,7 +62,8 @@ fn every_layer_comes_back_from_an_exr() {
 fn channels_follow_the_openexr_convention_and_carry_provenance() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("image.exr");
-    let attributes = BTreeMap::from([("scene".to_owned(), "ball".to_owned())]);
+    let told = [("scene", "ball"), ("method", "Lupe \u{436}\0")];
+    let attributes = told.map(|(name, value)| (name.to_owned(), value.to_owned())).into();
     write_exr_with(&path, &layers(), &attributes).unwrap();
     let meta = ::exr::meta::MetaData::read_from_file(&path, true).unwrap();
     let header = &meta.headers[0];
@@ -89,6 +90,12 @@ fn channels_follow_the_openexr_convention_and_carry_provenance() {
     }
     let scene = header.own_attributes.other.iter().find(|(name, _)| *name == "snell:scene");
     let expected = ::exr::meta::attribute::AttributeValue::Text("ball".into());
+    // UTF-8, as other readers of the format have it; a null would end the text.
+    let method = header.own_attributes.other.iter().find(|(name, _)| *name == "snell:method");
+    let (_, ::exr::meta::attribute::AttributeValue::Text(method)) = method.unwrap() else {
+        panic!("{method:?}")
+    };
+    assert_eq!(method.as_slice(), "Lupe \u{436} ".as_bytes());
     assert_eq!(scene.unwrap().1, &expected);
 }
 
