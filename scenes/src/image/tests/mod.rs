@@ -11,7 +11,6 @@ mod radiance;
 
 use super::*;
 use crate::{LayerName, Layers};
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// A small image with one layer of every kind; all values are exact in f32.
