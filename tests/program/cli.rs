@@ -96,6 +96,15 @@ fn methods_tell_their_parameters_and_their_papers() {
             }
         }
     }
+    let flags = blended["flags"].as_array().unwrap();
+    let cap = flags.iter().find(|flag| flag["name"] == "cap").unwrap();
+    assert!(cap["bit"] == 4 && cap["meaning"].as_str().unwrap().contains("cap"), "{cap}");
+    let told = done("methods");
+    for layer in blended["layers"].as_array().unwrap() {
+        let (name, meaning) = (layer["name"].as_str().unwrap(), layer["meaning"].as_str().unwrap());
+        assert!(told.contains(name) && told.contains(meaning), "{name}");
+    }
+    assert!(told.contains("geometric_normal") && told.contains("layer_facing.<n>"), "{told}");
     assert!(done("methods --bibtex").contains("@"));
 }
 

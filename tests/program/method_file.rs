@@ -56,6 +56,34 @@ fn a_file_is_judged_timed_and_reported() {
     assert!(ran.answer.contains("toy"), "{}", ran.answer);
     let report = std::fs::read_to_string(folder.path().join("out/report.html")).unwrap();
     assert!(report.contains("toy"));
+    assert_eq!(std::fs::read_to_string(folder.path().join("out/methods/toy.wgsl")).unwrap(), TOY);
+    assert!(!folder.path().join("out/methods/undeviated.wgsl").exists());
+}
+
+/// A parameter of the head is listed, set, refused out of its range, and is a constant.
+#[test]
+fn parameters_of_a_file_are_set_like_those_of_any_method() {
+    let head = "// parameter: tilt = 0 [-1 to 1 rad]: turns what comes out\n";
+    let turned = TOY.replace(
+        "return Trace(bent.direction,",
+        "return Trace(normalize(bent.direction + vec3f(TILT, 0.0, 0.0)),",
+    );
+    let (folder, file) = folder_with("tilted.wgsl", &format!("{head}{turned}"));
+    let image = |name: &str, set: &[&str]| {
+        let path = folder.path().join(name).to_str().unwrap().to_owned();
+        let asked = ["realtime", "ball", "-m", &file, "--resolution", "16x16", "-o", &path];
+        (snell(&[&asked[..], set].concat()), std::fs::read(folder.path().join(name)).ok())
+    };
+    let (ran, plain) = image("plain.exr", &[]);
+    assert_eq!(ran.status, Some(0), "{}", ran.message);
+    let (_, same) = image("same.exr", &["-p", "tilt=0"]);
+    let (_, other) = image("other.exr", &["-p", "tilt=0.5"]);
+    assert!(plain == same && plain.is_some() && plain != other && other.is_some());
+    let (refused, nothing) = image("refused.exr", &["-p", "tilt=2"]);
+    assert!(refused.status == Some(2) && nothing.is_none());
+    assert!(refused.message.contains("from -1 to 1"), "{}", refused.message);
+    let (refused, _) = image("unknown.exr", &["-p", "tild=0.1"]);
+    assert!(refused.message.contains("there are: tilt"), "{}", refused.message);
 }
 
 #[test]
@@ -63,6 +91,9 @@ fn what_is_wrong_with_a_file_is_said_with_its_line() {
     let cases = [
         ("broken.wgsl", TOY.replace("select(", "selekt("), "broken.wgsl:5"),
         ("empty.wgsl", String::new(), "fn trace("),
+        ("type.wgsl", TOY.replace("0.0, 1u, 0u)", "0.0, 1.0, 0u)"), "type.wgsl:7: "),
+        ("value.wgsl", TOY.replace("let mean = ", "let mean: f32 = "), "value.wgsl:5: "),
+        ("head.wgsl", format!("// parameter: a\n{TOY}"), "line 1: `// parameter: a`"),
         ("dx7.wgsl", TOY.to_owned(), "already"),
     ];
     for (name, text, expected) in cases {

@@ -181,6 +181,9 @@ impl Page {
         match self.study.time_metric.as_str() {
             "time_timestamp_ms" => "GPU timestamps",
             "time_cpu_ms" => "CPU time",
+            _ if self.study.software => {
+                "wall time of the processor, which draws what a GPU would (software adapter)"
+            }
             _ => "wall time",
         }
     }

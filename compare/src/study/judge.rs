@@ -163,7 +163,7 @@ fn counts(made: &Made, common: &ResultRow) -> Vec<ResultRow> {
     let counters = made.facts.counters.iter().map(|(name, value)| count(name, *value));
     let mut rows: Vec<_> = counters.collect();
     if let Some(layer) = made.layers.get(&LayerName::Flags) {
-        for (name, bit) in flag::ALL {
+        for (name, bit, _) in flag::ALL {
             let flagged = layer.data.iter().filter(|flags| **flags as u32 & bit != 0).count();
             rows.push(count(&format!("pixels_{name}"), flagged as u64));
         }

@@ -3,6 +3,7 @@
 use crate::results::{self, ResultRow, Run, Study};
 use crate::support::files::{self, FileError};
 use crate::{Error, report};
+use realtime::Method;
 use scenes::{LayerName, Layers};
 use std::collections::BTreeMap;
 use std::fs;
@@ -63,7 +64,20 @@ pub(super) fn write_flip(to: &Path, row: &ResultRow, map: Vec<f64>) -> Result<()
 pub(super) fn write(out: &Path, study: &Study, rows: &[ResultRow]) -> Result<(), Error> {
     results::write_rows(out, rows)?;
     results::write_study(out, study)?;
+    keep_methods(out, study)?;
     report::write(out, report::Options::default())?;
+    Ok(())
+}
+
+/// Keeps the WGSL of methods from users' files.
+fn keep_methods(out: &Path, study: &Study) -> Result<(), Error> {
+    for run in &study.runs {
+        if let Some(text) = Method::find(&run.method).ok().and_then(Method::file_text) {
+            let place = out.join("methods").join(format!("{}.wgsl", plain(&run.method)));
+            files::make_folder_of(&place)?;
+            files::write(&place, text.as_bytes())?;
+        }
+    }
     Ok(())
 }
 

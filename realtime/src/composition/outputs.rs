@@ -2,7 +2,7 @@
 
 use super::layer_images::LayerImage;
 use crate::error::Error;
-use crate::methods::Method;
+use crate::methods::{LAYERS, Method};
 use crate::request::Request;
 use scenes::{Camera, LayerName, Scene, Surface};
 
@@ -110,11 +110,7 @@ fn unknown(method: &Method, layer: &LayerName) -> Error {
     Error::UnknownLayer {
         method: method.id.to_owned(),
         layer: layer.to_string(),
-        available: format!(
-            "radiance, coverage, exit, first, hit2, events, flags, path.<medium> (where all bodies are of it), {}, layer_count, \
-             layer_depth.<n>, layer_normal.<n>, layer_facing.<n>",
-            BUFFERS.join(", ")
-        ),
+        available: LAYERS.map(|(name, _)| name).join(", "),
     }
 }
 

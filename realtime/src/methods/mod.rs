@@ -4,10 +4,13 @@
 //! registry with its parameters. Which passes and buffers it needs is not written
 //! down anywhere: it is read from its WGSL.
 
+mod declared;
+mod layers;
 mod registry;
 mod settings;
 mod user_file;
 
+pub use layers::LAYERS;
 pub use registry::METHODS;
 pub use settings::{Settings, Value};
 

@@ -5,8 +5,9 @@
 //! they call; what it reads, directly or not, is what will be drawn before it.
 //! Its head says what it is and what it needs, as theirs do (see `wgsl/source.rs`);
 //! without a line of needs it may call everything in `shaders/methods/anything.wgsl`.
+//! A parameter `strength` of its head is a constant `STRENGTH` in its WGSL.
 
-use super::{METHODS, Method};
+use super::{METHODS, Method, Parameter, declared};
 use crate::error::Error;
 use crate::wgsl::{self, Source};
 use std::collections::BTreeMap;
@@ -46,8 +47,29 @@ pub(super) fn method(path: &str) -> Result<&'static Method, Error> {
     {
         return Err(fail(format!("`// at vertices: {file}`: there is no such file")));
     }
+    let parameters = parameters(&read_from, fail)?;
     let title = if read_from.title.is_empty() { "a method from a file" } else { read_from.title };
-    let method = Box::leak(Box::new(Method { title, from_user: true, ..read_from }));
+    let method = Box::leak(Box::new(Method { title, parameters, from_user: true, ..read_from }));
     read.insert(path.to_owned(), method);
     Ok(method)
+}
+
+/// What its head declares.
+fn parameters(
+    method: &Method,
+    fail: impl Fn(String) -> Error,
+) -> Result<&'static [Parameter], Error> {
+    let mut found: Vec<Parameter> = Vec::new();
+    for (line, text) in method.source.head().parameters {
+        let parameter =
+            declared::parameter(&text).map_err(|why| fail(format!("line {line}: {why}")))?;
+        if found.iter().any(|known| known.name == parameter.name) {
+            return Err(fail(format!(
+                "line {line}: there are two parameters \"{}\"",
+                parameter.name
+            )));
+        }
+        found.push(parameter);
+    }
+    Ok(found.leak())
 }

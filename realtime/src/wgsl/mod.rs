@@ -6,6 +6,7 @@ mod composer;
 mod files;
 mod shader;
 mod source;
+mod told;
 
 pub(crate) use composer::{Choices, named};
 #[cfg(test)]

@@ -4,6 +4,7 @@
 
 use super::composer::Choices;
 use super::source::Source;
+use super::told::{Joined, causes};
 use crate::error::Error;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 
@@ -29,21 +30,22 @@ impl Shader {
     }
 
     /// Joins files in order and validates the whole.
-    fn link(sources: &[Source]) -> Result<Self, Error> {
+    pub(super) fn link(sources: &[Source]) -> Result<Self, Error> {
         let mut text = String::new();
         for source in sources {
             text.push_str(&source.text);
             text.push('\n');
         }
+        let joined = Joined { sources, text: &text };
         let module = naga::front::wgsl::parse_str(&text).map_err(|error| {
-            let line = error.location(&text).map_or(1, |at| at.line_number);
-            Error::Shader(format!("{}: {}", place(sources, line), error.message()))
+            let places = error.labels().map(|(span, label)| (span, label.to_owned()));
+            Error::Shader(joined.told(error.message(), places.collect()))
         })?;
         let info = Validator::new(ValidationFlags::all(), Capabilities::all())
             .validate(&module)
             .map_err(|error| {
-                let line = error.location(&text).map_or(1, |at| at.line_number);
-                Error::Shader(format!("{}: {}", place(sources, line), error.emit_to_string(&text)))
+                let places = error.spans().cloned().collect();
+                Error::Shader(joined.told(&causes(error.as_inner()), places))
             })?;
         Ok(Self { text, module, info })
     }
@@ -73,19 +75,6 @@ impl Shader {
     pub(crate) fn uses(&self, entry_points: &[&str], name: &str) -> bool {
         entry_points.iter().any(|entry| self.used(entry).iter().any(|used| used.name == name))
     }
-}
-
-/// File and line of a line of the joined text.
-fn place(sources: &[Source], mut line: u32) -> String {
-    for source in sources {
-        let lines = source.text.lines().count().max(1) as u32;
-        let joined = lines + u32::from(source.text.ends_with('\n'));
-        if line <= lines {
-            return format!("{}:{line}", source.file_name());
-        }
-        line -= joined.min(line);
-    }
-    sources.last().map_or_else(String::new, |source| format!("{}: at its end", source.file_name()))
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@
 //! | `// title:`, `// alias:` | of a method |
 //! | `// citation: @misc{…` | BibTeX, until its braces close |
 //! | `// at vertices: FILE` | makes `vertex_vector()`: the method works at vertices |
+//! | `// parameter: NAME = DEFAULT [MIN to MAX UNIT]: MEANING` | what can be set, of a user's method; `whole MIN to MAX` for whole numbers |
 //! | `// bends at equal index` | the method changes the image even where indices are equal |
 //! | `// one way for all colours` | the method does not trace red and blue on their own |
 //!
@@ -31,6 +32,8 @@ pub(crate) struct Head {
     /// `None` if the file has no such line.
     pub(crate) needs: Option<Vec<String>>,
     pub(crate) at_vertices: Option<String>,
+    /// Line and text of each.
+    pub(crate) parameters: Vec<(usize, String)>,
     pub(crate) bends_at_equal_index: bool,
     pub(crate) one_way_for_all_colours: bool,
 }
@@ -40,9 +43,14 @@ impl Source {
         Self { name: name.to_owned(), text: text.into() }
     }
 
+    /// A user's file.
+    pub(crate) fn is_path(&self) -> bool {
+        self.name.ends_with(".wgsl")
+    }
+
     /// What error messages call it.
     pub(crate) fn file_name(&self) -> Cow<'_, str> {
-        if self.name.ends_with(".wgsl") {
+        if self.is_path() {
             Cow::Borrowed(&self.name)
         } else {
             Cow::Owned(format!("{}.wgsl", self.name))
@@ -52,17 +60,22 @@ impl Source {
     pub(crate) fn head(&self) -> Head {
         let mut head = Head::default();
         let mut about: Vec<&str> = Vec::new();
-        let mut lines = self.text.lines().map_while(|line| line.strip_prefix("//"));
-        while let Some(line) = lines.next() {
+        let numbered = self.text.lines().enumerate();
+        let mut lines =
+            numbered.map_while(|(index, line)| Some((index + 1, line.strip_prefix("//")?)));
+        while let Some((number, line)) = lines.next() {
             let line = line.strip_prefix(' ').unwrap_or(line);
             match line.split_once(": ").map_or((line, ""), |(key, value)| (key, value.trim())) {
                 ("title", value) => value.clone_into(&mut head.title),
                 ("alias", value) => value.clone_into(&mut head.alias),
-                ("citation", value) => head.citation = citation(value, &mut lines),
+                ("citation", value) => {
+                    head.citation = citation(value, &mut lines.by_ref().map(|(_, line)| line));
+                }
                 ("needs", value) => {
                     let needs = head.needs.get_or_insert_default();
                     needs.extend(value.split_whitespace().map(str::to_owned));
                 }
+                ("parameter", value) => head.parameters.push((number, value.to_owned())),
                 ("at vertices", value) => head.at_vertices = Some(value.to_owned()),
                 ("bends at equal index", _) => head.bends_at_equal_index = true,
                 ("one way for all colours", _) => head.one_way_for_all_colours = true,
@@ -70,6 +83,9 @@ impl Source {
             }
         }
         head.about = about.join(" ");
+        if let (Some(needs), false) = (&mut head.needs, head.parameters.is_empty()) {
+            needs.push("parameters".to_owned());
+        }
         head
     }
 }

@@ -80,3 +80,19 @@ fn half_a_step_is_refused() {
     let message = steps("6.5").unwrap_err().to_string();
     assert!(message.contains("whole number"), "{message}");
 }
+
+/// What is listed for people is what is taken, of every method; and nothing of it is
+/// missing in what a refusal names.
+#[test]
+fn every_layer_that_is_listed_can_be_asked_of_every_method() {
+    let scene = scene_of(Shape::Sphere { radius_m: 1.0 }, 1.5, parallel(2.1, [8, 8]));
+    let refusal = refused(|r| r.view.layers = vec![LayerName::Variance]).to_string();
+    for (name, meaning) in realtime::methods::LAYERS {
+        assert!(refusal.contains(name) && !meaning.is_empty(), "{name}: {refusal}");
+        let name = name.replace("<medium>", "glass").replace("<n>", "3");
+        for method in realtime::METHODS.iter() {
+            let asked = request(&scene, method.id, &[LayerName::from(name.as_str())]);
+            assert!(realtime::plan(&scene, &asked).is_ok(), "{} {name}", method.id);
+        }
+    }
+}

@@ -38,8 +38,7 @@ pub enum LayerName {
     Buffer(String),
 }
 
-/// Bits of the `flags` layer (the meanings of ALGORITHMS-independent names are
-/// printed by `snell methods`).
+/// Bits of the `flags` layer; `snell methods` prints them with their meanings.
 pub mod flag {
     /// Total reflection was clamped to the tangent.
     pub const TIR_CLAMPED: u32 = 1 << 0;
@@ -57,16 +56,20 @@ pub mod flag {
     pub const GEOMETRIC_NORMAL: u32 = 1 << 6;
     /// The method does not support what this pixel shows.
     pub const UNSUPPORTED: u32 = 1 << 7;
-    /// Name and bit of every flag.
-    pub const ALL: [(&str, u32); 8] = [
-        ("tir_clamped", TIR_CLAMPED),
-        ("fallback", FALLBACK),
-        ("cap", CAP),
-        ("lost", LOST),
-        ("overflow", OVERFLOW),
-        ("non_finite", NON_FINITE),
-        ("geometric_normal", GEOMETRIC_NORMAL),
-        ("unsupported", UNSUPPORTED),
+    /// Name, bit and meaning of every flag.
+    pub const ALL: [(&str, u32, &str); 8] = [
+        ("tir_clamped", TIR_CLAMPED, "total reflection was clamped to the tangent"),
+        ("fallback", FALLBACK, "the second surface was missed and a fallback normal used"),
+        ("cap", CAP, "a cap on events or steps was reached"),
+        ("lost", LOST, "the ray was still inside when its search ended"),
+        ("overflow", OVERFLOW, "there are more layers than are kept"),
+        ("non_finite", NON_FINITE, "what was not finite was replaced"),
+        (
+            "geometric_normal",
+            GEOMETRIC_NORMAL,
+            "a shading normal was replaced by the geometric one",
+        ),
+        ("unsupported", UNSUPPORTED, "the method does not support what this pixel shows"),
     ];
 }
 

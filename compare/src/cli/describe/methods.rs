@@ -1,12 +1,14 @@
-//! `snell methods`: the approximations, their parameters and their papers.
+//! `snell methods`: the approximations, their parameters and their papers, and the
+//! layers and flags that all of them have.
 
 use crate::Error;
 use crate::cli::output::Output;
 use crate::cli::status::Status;
-use realtime::methods::{Kind, METHODS, Method, Parameter};
+use realtime::methods::{Kind, LAYERS, METHODS, Method, Parameter};
+use scenes::rendering::layer::flag;
 use serde::Serialize;
 
-/// List the approximations, with parameters and citations
+/// List the approximations, with parameters and citations, and the layers and flags of their images
 #[derive(clap::Args, Debug)]
 pub(in crate::cli) struct Args {
     /// Print the citations as BibTeX
@@ -23,6 +25,23 @@ struct Answer {
     about: &'static str,
     bibtex: &'static str,
     parameters: Vec<ParameterAnswer>,
+    layers: Vec<LayerAnswer>,
+    flags: Vec<FlagAnswer>,
+}
+
+/// A layer, for programs.
+#[derive(Serialize)]
+struct LayerAnswer {
+    name: &'static str,
+    meaning: &'static str,
+}
+
+/// A bit of the layer `flags`, for programs.
+#[derive(Serialize)]
+struct FlagAnswer {
+    name: &'static str,
+    bit: u32,
+    meaning: &'static str,
 }
 
 #[derive(Serialize)]
@@ -50,14 +69,41 @@ pub(in crate::cli) fn run(args: &Args, output: Output) -> Result<Status, Error> 
             output.line(&answer.text())?;
         }
     }
+    if !output.json {
+        layers_and_flags(output)?;
+    }
     Ok(Status::Done)
+}
+
+fn layers_and_flags(output: Output) -> Result<(), Error> {
+    output.line("layers, of every method (--layers)")?;
+    let rows = LAYERS.map(|(name, meaning)| vec![format!("  {name}"), meaning.to_owned()]);
+    output.line(&left_aligned(&rows))?;
+    output.line("bits of the layer flags")?;
+    let row = |(name, bit, meaning): (&str, u32, &str)| {
+        vec![format!("  {bit}"), name.to_owned(), meaning.to_owned()]
+    };
+    output.line(&left_aligned(&flag::ALL.map(row)))
+}
+
+/// Columns of text, the last as wide as it is.
+fn left_aligned(rows: &[Vec<String>]) -> String {
+    let widest = |column: usize| rows.iter().map(|row| row[column].len()).max().unwrap_or(0);
+    let line = |row: &Vec<String>| {
+        let cells = row.iter().enumerate();
+        let cells = cells.map(|(column, cell)| format!("{cell:<w$}", w = widest(column)));
+        cells.collect::<Vec<_>>().join("  ").trim_end().to_owned()
+    };
+    rows.iter().map(line).collect::<Vec<_>>().join("\n")
 }
 
 impl From<&Method> for Answer {
     fn from(method: &Method) -> Self {
         let Method { id, alias, title, about, bibtex, parameters, .. } = *method;
         let parameters = parameters.iter().map(ParameterAnswer::from).collect();
-        Self { id, alias, title, about, bibtex, parameters }
+        let layers = LAYERS.map(|(name, meaning)| LayerAnswer { name, meaning }).into();
+        let flags = flag::ALL.map(|(name, bit, meaning)| FlagAnswer { name, bit, meaning }).into();
+        Self { id, alias, title, about, bibtex, parameters, layers, flags }
     }
 }
 
