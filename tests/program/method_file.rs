@@ -54,6 +54,15 @@ fn a_file_is_judged_timed_and_reported() {
     let ran = snell(&[&study[..], &size[..], &places[..]].concat());
     assert_eq!(ran.status, Some(0), "{}", ran.message);
     assert!(ran.answer.contains("toy"), "{}", ran.answer);
+    let rows = std::fs::read_to_string(folder.path().join("out/results.jsonl")).unwrap();
+    let rows = rows.lines().map(|line| serde_json::from_str::<serde_json::Value>(line).unwrap());
+    let is_time =
+        |row: &serde_json::Value| row["metric"] == "time_wall_ms" && row["method"] == "toy";
+    let timed: Vec<_> = rows.filter(is_time).collect();
+    assert!(!timed.is_empty() && timed.iter().all(|row| row["n"].as_u64().unwrap() >= 3));
+    let is_software = timed[0]["software"].as_bool().unwrap();
+    let heading = if is_software { "CPU ms (software adapter)" } else { "GPU ms" };
+    assert!(ran.answer.contains(heading), "{}", ran.answer);
     let report = std::fs::read_to_string(folder.path().join("out/report.html")).unwrap();
     assert!(report.contains("toy"));
     assert_eq!(std::fs::read_to_string(folder.path().join("out/methods/toy.wgsl")).unwrap(), TOY);

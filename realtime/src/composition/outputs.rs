@@ -110,7 +110,10 @@ fn unknown(method: &Method, layer: &LayerName) -> Error {
     Error::UnknownLayer {
         method: method.id.to_owned(),
         layer: layer.to_string(),
-        available: LAYERS.map(|(name, _)| name).join(", "),
+        available: LAYERS
+            .map(|(name, _)| name)
+            .join(", ")
+            .replace("path.<medium>", "path.<medium> (where all bodies are of it)"),
     }
 }
 
