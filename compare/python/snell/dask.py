@@ -73,7 +73,7 @@ def study(
 
 def _submit(
     client: distributed.Client, job: Mapping[str, Any], words: list[str], store: Path, retries: int
-) -> distributed.Future:
+) -> "distributed.Future[Any]":
     return client.submit(
         _run,
         [*words, "--job", job["id"], "--store", os.fspath(store)],
@@ -102,7 +102,7 @@ def _offered(client: distributed.Client, wanted: Mapping[str, float]) -> None:
     )
 
 
-def _raise(future: distributed.Future) -> None:
+def _raise(future: "distributed.Future[Any]") -> None:
     error = future.exception()
     if isinstance(error, SnellError):
         raise error

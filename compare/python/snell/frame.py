@@ -70,7 +70,7 @@ class Frame(pd.DataFrame):
                 raise MetricError(f"no row has the metric {missing[0]}; there are {known}")
             self._usable(self[name.isin(metrics)])
         keys = [key for key in _KEYS if key in self]
-        keys += [key for key in self if str(key).startswith(("param.", "scene.")) and key not in keys]
+        keys += [name for name in map(str, self) if name.startswith(("param.", "scene."))]
         run = pd.Series(list(self[["id", "scene", "positions"]].itertuples(index=False)), self.index)
         runs = pd.DataFrame(self[keys]).groupby(run, sort=False).first()
         values = self["value"].groupby([run, name], sort=False).first().unstack()
@@ -135,7 +135,7 @@ def _telling(runs: pd.DataFrame) -> list[str]:
     of_method = runs.groupby(["scene", "method"], sort=False)
     differs = [
         key
-        for key in runs
+        for key in map(str, runs)
         if key not in (*_KEYS[:3], "id") and (of_method[key].nunique(dropna=False) > 1).any()
     ]
     telling = [*_KEYS[:3], *differs]

@@ -119,7 +119,7 @@ def words_of(
     """What a study is asked, as words for ``snell study``, ``jobs`` and ``run``. Scenes that
     are dictionaries are written below the folder."""
     one = scene is None or isinstance(scene, (str, os.PathLike, Mapping))
-    several: Sequence[Any] = ([] if scene is None else [scene]) if one else scene  # type: ignore[assignment,list-item]
+    several: Sequence[Any] = ([] if scene is None else [scene]) if one else scene  # type: ignore[assignment]
     said = [scenes.word(each, folder) for each in several]
     if len(set(said)) < len(said):
         raise SnellError("two scenes have one name; give each dictionary a `name` of its own")
