@@ -96,7 +96,7 @@ impl Readout<'_> {
                     self.push(layers, layer.clone(), 1, values);
                 }
                 None => {
-                    let origin = self.geometry.centre.to_array();
+                    let origin = self.geometry.extent.origin.to_array();
                     let origin = if row.is_position { origin } else { [0.0; 3] };
                     let vectors = texels.flat_map(|v| {
                         let written = f64::from(v[3]);

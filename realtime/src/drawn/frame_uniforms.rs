@@ -1,5 +1,7 @@
 //! What a frame shows, and its numbers as the shaders see them.
 
+use crate::drawn::clip_planes;
+use crate::drawn::drawables::Drawables;
 use crate::drawn::geometry::Geometry;
 use crate::drawn::uniforms::{self, Bodies, MAX_BODIES};
 use crate::error::Error;
@@ -39,6 +41,7 @@ pub(crate) struct FrameUniform {
     pub(crate) radius_m: f32,
     pub(crate) layer_capacity: u32,
     pub(crate) middle_lc: Vec3,
+    pub(crate) ball_lc: Vec3,
 }
 
 /// Writes the bodies' numbers, and the frame's before layers are counted.
@@ -79,61 +82,41 @@ fn frame_bytes(view: &Viewed<'_>, layer_capacity: u32) -> Vec<u8> {
 /// The camera's numbers, as the shaders see them.
 pub(crate) fn numbers(view: &Viewed<'_>, layer_capacity: u32) -> FrameUniform {
     let Viewed { geometry, camera, eta_outside, resolution_px, shift, .. } = *view;
-    let (centre, radius_m) = (geometry.centre, geometry.radius_m);
+    let extent = geometry.extent;
+    let basis = camera.basis();
+    // The image moves against the pixels by as much as their positions move in it.
+    let shifted = DMat4::from_translation(DVec3::new(-2.0 * shift.x, 2.0 * shift.y, 0.0));
+    let clip_from_lc = shifted
+        * clip_planes::clip_from_world(camera, &geometry.drawn())
+        * DMat4::from_translation(extent.origin);
     FrameUniform {
+        clip_from_lc: clip_from_lc.as_mat4(),
+        eye_lc: (camera.eye - extent.origin).as_vec3(),
+        right_ws: basis.right.as_vec3(),
+        up_ws: basis.up.as_vec3(),
+        forward_ws: basis.forward.as_vec3(),
+        half_extent: camera.half_extent().as_vec2(),
+        resolution_px: Vec2::from_array(resolution_px.map(|n| n as f32)),
+        eta_outside: eta_outside as f32,
+        radius_m: extent.radius_m as f32,
         layer_capacity,
         middle_lc: geometry.middle_lc,
-        ..FrameUniform::new(camera, resolution_px, shift, centre, radius_m, eta_outside)
+        ball_lc: (extent.middle - extent.origin).as_vec3(),
+        shift_px: (shift * DVec2::from_array(resolution_px.map(f64::from))).as_vec2(),
     }
 }
 
 impl FrameUniform {
-    /// The camera at a resolution, seen from `centre` (world space, metres), its
-    /// image shifted as in [`Viewed`].
-    pub(crate) fn new(
-        camera: &Camera,
-        resolution_px: [u32; 2],
-        shift: DVec2,
-        centre: DVec3,
-        radius_m: f64,
-        eta_outside: f64,
-    ) -> Self {
-        let basis = camera.basis();
-        let middle_m = (centre - camera.eye).dot(basis.forward);
-        // Planes fitted to the bodies; never behind the eye.
-        let near_m = (middle_m - 1.001 * radius_m).max(1e-3 * radius_m);
-        let far_m = (middle_m + 1.001 * radius_m).max(2.0 * near_m);
-        // The image moves against the pixels by as much as their positions move in it.
-        let shifted = DMat4::from_translation(DVec3::new(-2.0 * shift.x, 2.0 * shift.y, 0.0));
-        let clip_from_lc = shifted
-            * camera.clip_from_view(near_m, far_m)
-            * camera.view_from_world()
-            * DMat4::from_translation(centre);
-        Self {
-            clip_from_lc: clip_from_lc.as_mat4(),
-            eye_lc: (camera.eye - centre).as_vec3(),
-            right_ws: basis.right.as_vec3(),
-            up_ws: basis.up.as_vec3(),
-            forward_ws: basis.forward.as_vec3(),
-            half_extent: camera.half_extent().as_vec2(),
-            resolution_px: Vec2::from_array(resolution_px.map(|n| n as f32)),
-            shift_px: (shift * DVec2::from_array(resolution_px.map(f64::from))).as_vec2(),
-            eta_outside: eta_outside as f32,
-            radius_m: radius_m as f32,
-            layer_capacity: 0,
-            middle_lc: Vec3::ZERO,
-        }
-    }
-
     /// One face of a cube about a point (local space), seen at a right angle
     /// and `margin` texels more on every side. Rows run down the face and
-    /// columns to its right, as WebGPU numbers them: a mirrored camera.
+    /// columns to its right, as WebGPU numbers them: a mirrored camera. `drawn`: what
+    /// it looks at.
     pub(crate) fn of_cube_face(
         &self,
         face: usize,
         eye_lc: Vec3,
-        size_px: u32,
-        margin: u32,
+        [size_px, margin]: [u32; 2],
+        drawn: &Drawables,
     ) -> Self {
         const FACES: [[Vec3; 3]; 6] = [
             [Vec3::NEG_Z, Vec3::Y, Vec3::X],
@@ -146,10 +129,10 @@ impl FrameUniform {
         let [right, up, forward] = FACES[face];
         let edge_px = (size_px + 2 * margin) as f32;
         let extent = edge_px / size_px as f32;
-        let (near_m, far_m) = (1e-3 * self.radius_m, 4.0 * self.radius_m);
-        let depth = far_m / (far_m - near_m);
+        let eye = drawn.centre + eye_lc.as_dvec3();
+        let reach = f64::from(extent).hypot(extent.into());
         let view = |axis: Vec3| axis.extend(-axis.dot(eye_lc));
-        let z = view(forward) * depth - Vec4::W * near_m * depth;
+        let z = Vec4::W * clip_planes::near_m(eye, reach, &[drawn]) as f32;
         let rows = [view(right) / extent, view(up) / extent, z, view(forward)];
         Self {
             clip_from_lc: Mat4::from_cols_array_2d(&rows.map(|row| row.to_array())).transpose(),

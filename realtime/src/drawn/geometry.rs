@@ -1,6 +1,7 @@
 //! What one frame shows: the bodies, what is inside them, and what is around.
 
 use crate::drawn::drawables::{Drawables, PlacedShape};
+use crate::drawn::extent::Extent;
 use crate::drawn::uniforms::{Body, Bump, Light, MAX_BODIES, MAX_LIGHTS, Paint};
 use crate::error::Error;
 use glam::{DVec3, Vec3};
@@ -31,10 +32,8 @@ pub(crate) struct Geometry {
     pub(crate) air: Drawables,
     /// Unit vector towards the light that cracks glitter in.
     pub(crate) towards_light_ws: Vec3,
-    /// Local origin in world space, metres.
-    pub(crate) centre: DVec3,
-    /// Radius about the centre that holds every bounded object, metres.
-    pub(crate) radius_m: f64,
+    /// Where the bodies are.
+    pub(crate) extent: Extent,
     /// Corners of the bodies' bounds, world space, metres; not finite where a body has
     /// no bounds, and then beyond no side of the view.
     pub(crate) outlines: Vec<[DVec3; 8]>,
@@ -66,7 +65,8 @@ impl Geometry {
         at_most("opaque objects", opaque.len(), MAX_BODIES)?;
         at_most("lights", scene.lights.len(), MAX_LIGHTS)?;
         scene.media.iter().try_for_each(|medium| medium.check_at(RGB_WAVELENGTH_UM))?;
-        let (centre, radius_m) = extent(scene);
+        let extent = Extent::new(scene, &solids, time_s);
+        let centre = extent.origin;
         let moves = |object: &&Object| object.motion.is_some() || object.deform.is_some();
         let mut geometry = Self {
             bodies: Drawables::new(centre),
@@ -79,8 +79,7 @@ impl Geometry {
             cracks: Drawables::new(centre),
             air: Drawables::new(centre),
             towards_light_ws: towards_light(scene),
-            centre,
-            radius_m: radius_m.max(f64::MIN_POSITIVE),
+            extent,
             outlines: Vec::new(),
             middle_lc: middle(&solids, time_s, centre),
             absorbs: false,
@@ -98,6 +97,11 @@ impl Geometry {
             geometry.add_opaque(object, time_s);
         }
         Ok(geometry)
+    }
+
+    /// Everything that some pass draws.
+    pub(crate) fn drawn(&self) -> [&Drawables; 4] {
+        [&self.bodies, &self.opaque, &self.cracks, &self.air]
     }
 
     fn add_body(
@@ -124,12 +128,12 @@ impl Geometry {
             PlacedShape { shape: &shape, world_from_object, normals: object.normals, number };
         self.outlines
             .push(box_corners(shape.bounds()).map(|p| world_from_object.transform_point3(p)));
-        self.bodies.add(&placed, 1e4 * self.radius_m);
+        self.bodies.add(&placed, 1e4 * self.extent.reach_m);
         if let Some(bump) = &object.bump {
             // The bent normal needs the unbent one beside it.
             self.bodies.smooth = true;
             let bumps = self.bumps.get_or_insert_with(|| vec![Bump::default(); MAX_BODIES]);
-            bumps[number as usize - 1] = Bump::new(bump, &world_from_object, self.centre);
+            bumps[number as usize - 1] = Bump::new(bump, &world_from_object, self.extent.origin);
         }
         self.add_inside(object, &placed);
         Ok(())
@@ -158,7 +162,7 @@ impl Geometry {
     /// without triangles keep theirs whole.
     pub(crate) fn clip_cracks(&mut self, scene: &Scene, frame: u32) {
         let time_s = scene.time_s(frame);
-        self.cracks = Drawables::new(self.centre);
+        self.cracks = Drawables::new(self.extent.origin);
         let solids = scene.objects.iter().filter(|object| is_solid(object));
         for (object, number) in solids.zip(1..) {
             let shape = object.shape_at(time_s);
@@ -180,28 +184,17 @@ impl Geometry {
     fn add_opaque(&mut self, object: &Object, time_s: f64) {
         let shape = object.shape_at(time_s);
         let world_from_object = object.world_from_object_at(time_s);
-        self.paints.push(Paint::new(&object.surface, &world_from_object, self.centre));
+        self.paints.push(Paint::new(&object.surface, &world_from_object, self.extent.origin));
         let number = self.paints.len() as u32;
         let placed =
             PlacedShape { shape: &shape, world_from_object, normals: object.normals, number };
-        self.opaque.add(&placed, 1e4 * self.radius_m);
-        let middle = self.centre + self.middle_lc.as_dvec3();
+        self.opaque.add(&placed, 1e4 * self.extent.reach_m);
+        let middle = self.extent.origin + self.middle_lc.as_dvec3();
         let at = world_from_object.inverse().transform_point3(middle);
-        let reach_m = self.radius_m / world_from_object.matrix3.col(0).length();
+        let reach_m = self.extent.reach_m / world_from_object.matrix3.col(0).length();
         if !is_small_solid_about(&shape, at, reach_m) {
-            self.opaque_in_cube.add(&placed, 1e4 * self.radius_m);
+            self.opaque_in_cube.add(&placed, 1e4 * self.extent.reach_m);
         }
-    }
-}
-
-/// Centre (world space) and radius of what is drawn, metres; of a scene without
-/// bounds, about what the camera looks at.
-fn extent(scene: &Scene) -> (DVec3, f64) {
-    let [low, high] = scene.bounds();
-    if low.is_finite() && high.is_finite() {
-        (0.5 * (low + high), 0.5 * (high - low).length())
-    } else {
-        (scene.camera.target, (scene.camera.target - scene.camera.eye).length() * 10.0)
     }
 }
 

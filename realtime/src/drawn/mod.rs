@@ -1,7 +1,9 @@
-//! What is drawn, moved to the centre of the scene's bodies and narrowed to f32
+//! What is drawn, moved near to what the eye sees of the bodies and narrowed to f32
 //! on the way to the GPU.
 
+pub(crate) mod clip_planes;
 pub(crate) mod drawables;
+pub(crate) mod extent;
 pub(crate) mod frame_uniforms;
 pub(crate) mod geometry;
 pub(crate) mod projection;

@@ -96,13 +96,12 @@ impl Backdrop {
         index: usize,
         maker: &Maker<'_>,
         cube: &wgpu::Texture,
-        view: &Viewed<'_>,
+        (view, numbers): (&Viewed<'_>, &FrameUniform),
         surroundings: &Outputs,
     ) -> Result<ReadyRaster, Error> {
         let mut own = Outputs::default();
-        let numbers = frame_uniforms::numbers(view, 0);
-        let (size_px, margin) = (self.size_px, self.margin);
-        let numbers = numbers.of_cube_face(index, view.geometry.middle_lc, size_px, margin);
+        let (size_px, drawn) = ([self.size_px, self.margin], &view.geometry.opaque_in_cube);
+        let numbers = numbers.of_cube_face(index, view.geometry.middle_lc, size_px, drawn);
         let bytes = uniforms::bytes_of(&numbers);
         let uniform = maker.allocator.filled("frame of a face", &bytes, BufferUsages::UNIFORM)?;
         own.buffer("frame", uniform);
@@ -157,7 +156,8 @@ impl Pass for Backdrop {
         let (size, format) = ([edge_px, edge_px, 6], TextureFormat::Rgba32Float);
         let cube = allocator.texture("drawn cube", size, format, usage)?;
         let in_cube = Maker::new(gpu, allocator, &view.geometry.opaque_in_cube, [edge_px; 2])?;
-        let face = |index| self.ready_face(index, &in_cube, &cube, view, &surroundings);
+        let seen = (view, &frame_uniforms::numbers(view, 0));
+        let face = |index| self.ready_face(index, &in_cube, &cube, seen, &surroundings);
         let faces = (0..FACES.len()).map(face).collect::<Result<Vec<_>, _>>()?;
         let dimension = match self.margin {
             0 => TextureViewDimension::Cube,

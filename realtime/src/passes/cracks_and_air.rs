@@ -168,7 +168,7 @@ impl CracksAndAir {
         }
         let numbers = uniforms::Interior {
             towards_light_ws: view.geometry.towards_light_ws,
-            size_m: view.geometry.radius_m as f32,
+            size_m: view.geometry.extent.radius_m as f32,
         };
         let bytes = uniforms::bytes_of(&numbers);
         own.buffer("interior", allocator.filled("interior", &bytes, BufferUsages::UNIFORM)?);

@@ -62,11 +62,12 @@ impl Pass for NormalCube {
         let (size, format) = ([SIZE_PX, SIZE_PX, 6], TextureFormat::Rgba32Float);
         let cube = maker.allocator.texture(CUBE, size, format, usage)?;
         let geometry = making.view.geometry;
+        let numbers = frame_uniforms::numbers(making.view, 0);
         let mut faces = Vec::new();
         for (index, name) in FACES.into_iter().enumerate() {
-            let numbers = frame_uniforms::numbers(making.view, 0);
-            let numbers = numbers.of_cube_face(index, geometry.middle_lc, SIZE_PX, 0);
-            let bytes = uniforms::bytes_of(&numbers);
+            let (size_px, drawn) = ([SIZE_PX, 0], &geometry.bodies);
+            let face = numbers.of_cube_face(index, geometry.middle_lc, size_px, drawn);
+            let bytes = uniforms::bytes_of(&face);
             let uniform = BufferUsages::UNIFORM;
             let mut own = Outputs::default();
             own.buffer("frame", maker.allocator.filled("frame of a face", &bytes, uniform)?);

@@ -212,8 +212,8 @@ impl<'a> Maker<'a> {
     fn depth_test(&self, raster: &RasterPass) -> Result<Option<(wgpu::TextureView, f32)>, Error> {
         let clear = match raster.sides {
             sides if !sides.has_depth() => return Ok(None),
-            Sides::Back { farthest: true } | Sides::Outermost => 0.0,
-            _ => 1.0,
+            Sides::Back { farthest: true } | Sides::Outermost | Sides::Nearest => 1.0,
+            _ => 0.0,
         };
         let size = [self.resolution_px[0], self.resolution_px[1], 1];
         let format = wgpu::TextureFormat::Depth32Float;

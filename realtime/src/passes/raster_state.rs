@@ -108,14 +108,15 @@ fn culled(sides: Sides) -> Option<wgpu::Face> {
     }
 }
 
+/// Depth is 1 in front and 0 infinitely far away.
 fn compare(sides: Sides) -> Option<wgpu::CompareFunction> {
     match sides {
-        Sides::Back { farthest: true } | Sides::Outermost => Some(wgpu::CompareFunction::Greater),
-        Sides::Front | Sides::Back { farthest: false } | Sides::Nearest => {
-            Some(wgpu::CompareFunction::Less)
-        }
-        // What lies beyond the far plane still covers the sky.
-        Sides::Opaque => Some(wgpu::CompareFunction::LessEqual),
+        Sides::Back { farthest: true } | Sides::Outermost => Some(wgpu::CompareFunction::Less),
+        Sides::Front | Sides::Back { farthest: false } => Some(wgpu::CompareFunction::Greater),
+        // What is at 0 still covers the sky.
+        Sides::Opaque => Some(wgpu::CompareFunction::GreaterEqual),
+        // This pass writes a depth of its own, which grows with the distance.
+        Sides::Nearest => Some(wgpu::CompareFunction::Less),
         _ => None,
     }
 }

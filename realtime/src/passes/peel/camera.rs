@@ -22,7 +22,8 @@ pub(super) fn fitted(inputs: &Inputs<'_>) -> Result<Option<Camera>, Error> {
     if asked_for(inputs.request) {
         return refuse("its layers are not those of the image and cannot be shown as such");
     }
-    let (centre, radius_m) = (inputs.geometry.centre, MARGIN * inputs.geometry.radius_m);
+    let extent = inputs.geometry.extent;
+    let (centre, radius_m) = (extent.middle, MARGIN * extent.radius_m);
     let basis = inputs.camera.basis();
     let away = centre - inputs.camera.eye;
     let edge_px = match inputs.settings.number("peel_px") as u32 {

@@ -1,5 +1,5 @@
 // Spaces and the camera. Suffixes: _ws directions in world axes; _lc positions
-// in local space: world axes, metres, from the centre of the scene's bodies;
+// in local space: world axes, metres, from where the bodies are nearest to the eye;
 // _px continuous pixels from the top left. Depth is linear, along the viewing
 // axis, positive in front of the eye.
 
@@ -13,9 +13,10 @@ struct Frame {
     resolution_px: vec2f,
     shift_px: vec2f,            // from a pixel's centre to the position in it that is drawn
     eta_outside: f32,
-    radius_m: f32,              // of a ball about the local origin around all bodies
+    radius_m: f32,              // of a ball around all bodies
     layer_capacity: u32,        // interfaces per pixel that are kept
     middle_lc: vec3f,           // of the bodies
+    ball_lc: vec3f,             // centre of the ball around all bodies
 }
 
 struct Body {

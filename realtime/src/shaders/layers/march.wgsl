@@ -17,5 +17,6 @@ fn pixel_of(p_lc: vec3f) -> vec2i {
 }
 
 fn outside_bodies(p_lc: vec3f) -> bool {
-    return dot(p_lc, p_lc) > 1.0002 * frame.radius_m * frame.radius_m;
+    let from_middle = p_lc - frame.ball_lc;
+    return dot(from_middle, from_middle) > 1.0002 * frame.radius_m * frame.radius_m;
 }

@@ -48,8 +48,9 @@ fn analytic_surface(at: vec4f) -> Varyings {
     return Varyings(at, p_lc, normal_ws, normal_ws, analytic.body, thickness_m, vector_ws);
 }
 
-// What a depth test compares, as for triangles.
+// What a depth test compares, as for triangles: more where it is nearer, and more
+// than nothing however far.
 fn depth_of_clip(v: Varyings) -> f32 {
     let clip = frame.clip_from_lc * vec4f(v.p_lc, 1.0);
-    return clip.z / clip.w;
+    return max(clip.z / clip.w, 0x1p-120f);
 }
