@@ -5,6 +5,7 @@ mod built_in;
 mod colour;
 mod distance;
 mod environment;
+mod far_and_near;
 mod first_event;
 mod flags;
 mod leaving_out;
