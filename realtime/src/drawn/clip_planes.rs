@@ -53,7 +53,8 @@ fn nearest_m(drawables: &Drawables, point: DVec3) -> f64 {
             let corners = &drawables.corners[range.start as usize..range.end as usize];
             let position = |k: usize| DVec3::from(Vec3::from_array(corners[k].p_lc));
             let triangles = (0..corners.len() / 3).into_par_iter();
-            let distances = triangles.map(|i| to_triangle_m([0, 1, 2].map(|k| position(3 * i + k)), at));
+            let distances =
+                triangles.map(|i| to_triangle_m([0, 1, 2].map(|k| position(3 * i + k)), at));
             distances.reduce(|| f64::INFINITY, f64::min)
         }
         Draw::Analytic(formula, placed, size_m, _) => {
@@ -104,7 +105,9 @@ fn depths_m(camera: &Camera, drawn: &[&Drawables]) -> [f64; 2] {
         }
         for draw in &drawables.draws {
             let Draw::Analytic(formula, placed, size_m, _) = draw else { continue };
-            column_depths_m(camera, bounds(*formula, *size_m), placed).into_iter().for_each(&mut hold);
+            column_depths_m(camera, bounds(*formula, *size_m), placed)
+                .into_iter()
+                .for_each(&mut hold);
         }
     }
     let low = low.clamp(0.0, high);

@@ -29,7 +29,10 @@ fn covered_and_expected(scene: &Scene, method: &str, centre: DVec3) -> (f64, f64
 #[track_caller]
 fn assert_seen(scene: &Scene, method: &str) {
     let (covered, expected) = covered_and_expected(scene, method, DVec3::ZERO);
-    assert!(expected > 100.0 && covered > 0.9 * expected && covered <= expected, "{covered} {expected}");
+    assert!(
+        expected > 100.0 && covered > 0.9 * expected && covered <= expected,
+        "{covered} {expected}"
+    );
 }
 
 /// The near plane was a thousandth of the radius of everything in front of the eye.
