@@ -31,7 +31,13 @@ impl<'a> Asked<'a> {
         method: &'static Method,
         settings: &'a Settings,
     ) -> Result<Self, Error> {
-        let geometry = Geometry::new(scene, request.view.frame)?;
+        let geometry = if method.follows_rays {
+            let mut geometry = Geometry::for_rays(scene, request.view.frame)?;
+            geometry.remember_first(scene)?;
+            geometry
+        } else {
+            Geometry::new(scene, request.view.frame)?
+        };
         let camera = camera(scene, request);
         Ok(Self { scene, request, method, settings, geometry, camera })
     }

@@ -3,6 +3,7 @@
 
 use crate::composition::chosen::decided;
 use crate::composition::inputs::Inputs;
+use crate::drawn::drawables::Drawables;
 use crate::drawn::frame_uniforms::{self, Viewed, upload_numbers};
 use crate::drawn::geometry::Geometry;
 use crate::error::Error;
@@ -12,22 +13,23 @@ use crate::gpu::limits::Limits;
 use crate::gpu::recorder::Recorder;
 use crate::gpu::resources::Outputs;
 use crate::passes::{Listed, Maker, Making, Pass, Ready, Wanted};
-use crate::passes::{back, backdrop, cracks_and_air, front, normal_cube, peel, shade};
+use crate::passes::{back, backdrop, cracks_and_air, front, normal_cube, peel, rays, shade};
 use crate::plan::counted::Counted;
 use crate::plan::entries::Entries;
-use crate::plan::timing::THICKNESS;
+use crate::plan::timing::{REFIT, THICKNESS};
 use glam::DVec2;
 use scenes::Plan;
 use scenes::plan::Kind;
 
 /// Every pass there is, in the order in which they run.
-const PASSES: [Listed; 7] = [
+const PASSES: [Listed; 8] = [
     backdrop::LISTED,
     normal_cube::LISTED,
     front::LISTED,
     back::LISTED,
     peel::LISTED,
     cracks_and_air::LISTED,
+    rays::LISTED,
     shade::LISTED,
 ];
 
@@ -51,7 +53,8 @@ impl<'a> Composition<'a> {
             let pass = (listed.compose)(&inputs, &wanted)?;
             passes.push(pass);
         }
-        let within_px = if inputs.is_off_screen() { None } else { inputs.within_px() };
+        let drawn = passes.iter().flatten().any(|pass| pass.draws_bodies());
+        let within_px = if drawn { inputs.within_px() } else { None };
         Ok(Self { inputs, passes, within_px })
     }
 
@@ -59,6 +62,16 @@ impl<'a> Composition<'a> {
     pub(crate) fn reads_thickness(&self) -> bool {
         let keeps = self.inputs.keeps_all();
         keeps || self.passes.iter().flatten().any(|pass| pass.reads(front::THICKNESS))
+    }
+
+    /// Some pass draws the bodies' triangles.
+    fn draws_bodies(&self) -> bool {
+        self.passes.iter().flatten().any(|pass| pass.draws_bodies())
+    }
+
+    /// Rays meet the bodies by themselves.
+    pub(crate) fn follows_rays(&self) -> bool {
+        self.inputs.follows_rays()
     }
 
     pub(crate) fn draws_clipped_cracks(&self) -> bool {
@@ -78,14 +91,16 @@ impl<'a> Composition<'a> {
         if positions > 1 {
             let mut again = self.plan_at_one(geometry, true, counted).passes;
             // The CPU's part is done once for all of them.
-            again.retain(|pass| pass != THICKNESS);
+            again.retain(|pass| pass != THICKNESS && pass != REFIT);
             plan.passes.extend((1..positions).flat_map(|_| again.iter().cloned()));
         }
         plan
     }
 
     fn plan_at_one(&self, geometry: &Geometry, repeated: bool, counted: Option<Counted>) -> Plan {
-        let mut entries = Entries { repeated, counted, ..Entries::new(&self.inputs, geometry) };
+        let draws_bodies = self.draws_bodies();
+        let new = Entries::new(&self.inputs, geometry);
+        let mut entries = Entries { repeated, counted, draws_bodies, ..new };
         entries.bodies();
         for (listed, pass) in PASSES.iter().zip(self.passes.iter().rev()) {
             match pass {
@@ -166,7 +181,9 @@ impl Frame {
         shifts: &[DVec2],
     ) -> Result<Self, Error> {
         let mut outputs = upload_numbers(allocator, view)?;
-        let bodies = Maker::new(gpu, allocator, &view.geometry.bodies, view.resolution_px)?;
+        let nothing = Drawables::default();
+        let drawn = if composition.draws_bodies() { &view.geometry.bodies } else { &nothing };
+        let bodies = Maker::new(gpu, allocator, drawn, view.resolution_px)?;
         let bodies = bodies.within(composition.within_px);
         let mut passes = Vec::new();
         for pass in composition.passes.iter().rev().flatten() {

@@ -12,7 +12,7 @@ use crate::gpu::recorder::Executed;
 use crate::methods::{Method, Settings};
 use crate::passes::peel;
 use crate::plan::counted::Counted;
-use crate::plan::timing::FrameTimes;
+use crate::plan::timing::{FrameTimes, REFIT, THICKNESS};
 use crate::planned::{self, add};
 use crate::readout::{Light, Readout};
 use crate::request::Request;
@@ -49,6 +49,8 @@ struct Ran {
     timed: Vec<Executed>,
     /// What it took to find the distances through the bodies, if they are read.
     thickness_ms: Option<f64>,
+    /// What it took to refit the tree that rays search, if they do and it has moved.
+    refit_ms: Option<f64>,
 }
 
 impl Asked<'_> {
@@ -61,8 +63,9 @@ impl Asked<'_> {
             let ran = self.frame(gpu, &request, &mut layers)?;
             ran.counted.into_iter().for_each(|counted| times.layers(counted));
             times.bytes += ran.bytes;
-            let per_frame_ms = ran.thickness_ms.filter(|_| self.geometry.deforms);
-            times.add(request.label, &ran.executed, &ran.timed, per_frame_ms);
+            let thickness_ms = ran.thickness_ms.filter(|_| self.geometry.deforms);
+            let on_cpu = [(REFIT, ran.refit_ms), (THICKNESS, thickness_ms)];
+            times.add(request.label, &ran.executed, &ran.timed, &on_cpu);
             add(&mut plan, request.label, ran.plan);
         }
         plan.peak_bytes += planned::bytes_of_layers(&self.request.view);
@@ -91,7 +94,8 @@ impl Asked<'_> {
         let counted = frame.counted();
         let plan = composition.plan(&geometry, shifts.len(), request.is_timed(), counted);
         let bytes = allocator.allocated().iter().map(|buffer| buffer.bytes).sum();
-        Ok(Ran { plan, bytes, counted, executed, timed, thickness_ms })
+        let refit_ms = composition.follows_rays().then(|| geometry.rays().refit_ms).flatten();
+        Ok(Ran { plan, bytes, counted, executed, timed, thickness_ms, refit_ms })
     }
 
     /// Draws an image and reads its layers.
@@ -138,7 +142,7 @@ impl Asked<'_> {
                 adapter: info.name.clone(),
                 driver: info.driver.clone(),
                 software: info.software,
-                seed: None,
+                seed: self.settings.seed(),
                 version: env!("CARGO_PKG_VERSION").to_owned(),
             },
         }

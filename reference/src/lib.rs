@@ -27,6 +27,6 @@ pub use image::run::Watch;
 pub use optics::interface;
 pub use receiver::map::{Balance, CausticMap};
 pub use request::{
-    EnvironmentLookup, Estimator, FEWEST_WAVELENGTHS, Fresnel, Keep, Level, Paths, Positions,
-    Request, Restriction, Spectrum,
+    Disturbance, EnvironmentLookup, Estimator, FEWEST_WAVELENGTHS, Fresnel, Keep, Level, Paths,
+    Positions, Request, Restriction, Spectrum,
 };

@@ -27,8 +27,22 @@ pub struct Request {
     /// Light on a receiver, straight and through glass, in place of the direct
     /// light that shades it otherwise. For [`Level::R2`].
     pub caustics: Option<Arc<CausticMap>>,
+    /// How far every event of a chain is off: to see which chains rounding decides.
+    /// Without effect on trees and paths.
+    pub disturbance: Disturbance,
     /// Whether the tracer is specialised to the scene.
     pub keep: Keep,
+}
+
+/// What is done to each event of a chain, the camera's first: the ray that leaves it
+/// starts aside, along the surface, and is turned aside.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Disturbance {
+    /// The angle in radians, 0 to 1e-3, and the shift as a share of the position's
+    /// largest coordinate. 0: nothing.
+    pub share: f64,
+    /// Of the sides to which the events are disturbed.
+    pub seed: u64,
 }
 
 /// What of the tracer is compiled in. The image is the same, bit by bit.
@@ -198,6 +212,9 @@ impl Request {
         if !(1..=256).contains(&k) {
             return range("positions per axis", k.to_string(), "1 to 256");
         }
+        if !(0.0..=1e-3).contains(&self.disturbance.share) {
+            return range("disturbance", self.disturbance.share.to_string(), "0 to 0.001");
+        }
         let tree = matches!(self.estimator, Estimator::Tree { .. });
         if self.polarised && !(tree && self.restriction.fresnel == Fresnel::Exact) {
             let value = format!("{:?}, {:?}", self.estimator, self.restriction.fresnel);
@@ -229,6 +246,7 @@ impl Request {
             polarised: false,
             spectrum: Spectrum::Channels,
             caustics: None,
+            disturbance: Disturbance::default(),
             keep: Keep::Needed,
         }
     }

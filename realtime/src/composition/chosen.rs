@@ -24,10 +24,10 @@ const WITHOUT_PARAMETER: [(&str, &str); 6] = [
 /// any say.
 pub(crate) fn decided(mut inputs: Inputs<'_>) -> Inputs<'_> {
     let Inputs { method, settings, .. } = inputs;
-    let mut choices = choices(&inputs);
     let bends_anyway = method.bends_at_equal_index(settings);
     inputs.index_matched = !bends_anyway && inputs.is_index_matched();
-    if inputs.index_matched {
+    let mut choices = choices(&inputs);
+    if inputs.index_matched && !method.follows_rays {
         choices.choose("method", "undeviated");
         choices.choose("reflection", "reflect_nothing");
     } else {
@@ -44,6 +44,9 @@ fn choices(inputs: &Inputs<'_>) -> Choices {
     let mut choices = Choices::default();
     by_parameters(inputs.settings, &mut choices);
     by_scene(inputs, &mut choices);
+    if inputs.method.follows_rays {
+        by_rays(inputs, &mut choices);
+    }
     for output in OUTPUTS {
         let way = if inputs.outputs.contains(&output) { "out" } else { "no" };
         choices.choose(&format!("out_{output}"), &format!("{way}_{output}"));
@@ -84,6 +87,37 @@ fn by_scene(inputs: &Inputs<'_>, choices: &mut Choices) {
     either("shown_cracks", inputs.shows_cracks(), "cracks_shown", "cracks_none");
     either("shown_air", inputs.shows_air(), "air_shown", "air_none");
     choices.choose("environment", environment(inputs, inputs.draws_backdrop()));
+}
+
+/// What rays meet, and where they start.
+fn by_rays(inputs: &Inputs<'_>, choices: &mut Choices) {
+    let (geometry, rays) = (inputs.geometry, inputs.geometry.rays());
+    let mut either = |need: &str, condition: bool, then: &str, otherwise: &str| {
+        choices.choose(need, if condition { then } else { otherwise });
+    };
+    let bends = geometry.bodies.smooth || geometry.opaque.smooth || geometry.bumps.is_some();
+    let apart = geometry.disperses || inputs.keeps_all();
+    either("ray_tree", !rays.nodes.is_empty(), "ray_tree", "ray_tree_none");
+    either("ray_analytic", !rays.analytic.is_empty(), "ray_analytic", "ray_analytic_none");
+    either("ray_normals", bends, "ray_normals_smooth", "ray_normals_flat");
+    either("ray_opaque", !geometry.opaque.is_empty(), "ray_opaque", "ray_opaque_none");
+    either("ray_colours", apart, "ray_colours_apart", "ray_colours_together");
+    either("winding", geometry.nested, "winding_nested", "winding_single");
+    let whole = |name: &str, otherwise| inputs.settings.whole_if_any(name).unwrap_or(otherwise);
+    let layers = inputs.outputs.iter().any(|output| *output != "radiance");
+    let constants = format!(
+        "const RAY_STACK: u32 = {}u;\nconst RAY_SAMPLES: u32 = {}u;\nconst RAY_SEED: u32 = {}u;\n\
+         const RAY_EVENTS: u32 = {}u;\nconst RAY_CHANNELS: u32 = {}u;\nconst RAY_LAYERS: bool = {layers};\n\
+         const RAY_LIGHT: bool = {};\nconst RAY_STARTS_INSIDE: bool = {};\n",
+        rays.depth.max(1),
+        whole("samples", 0),
+        whole("seed", 0),
+        whole("max_events", 1024),
+        if apart { 3 } else { 1 },
+        inputs.outputs.contains(&"radiance"),
+        inputs.may_start_inside(),
+    );
+    choices.give("ray_constants", Source::new("ray_constants", constants));
 }
 
 /// How the environment is looked up: the scene's, or one that was drawn.

@@ -7,8 +7,8 @@ use crate::drawn::uniforms::Body;
 use crate::methods::{Method, Settings};
 use crate::request::{Keep, Request};
 use crate::wgsl::Choices;
-use glam::DVec2;
-use scenes::{Camera, LayerName, Scene};
+use glam::{DVec2, DVec3};
+use scenes::{Camera, LayerName, Projection, Scene};
 
 /// What a frame is composed for.
 #[derive(Clone)]
@@ -33,6 +33,25 @@ impl Inputs<'_> {
     /// Nothing that could be left out is.
     pub(crate) fn keeps_all(&self) -> bool {
         self.request.keep == Keep::Everything
+    }
+
+    /// Rays from the camera may begin inside a body.
+    pub(crate) fn may_start_inside(&self) -> bool {
+        let Camera { eye, .. } = *self.camera;
+        let forward = self.camera.basis().forward;
+        let parallel = matches!(self.camera.projection, Projection::Orthographic { .. });
+        self.geometry.outlines.iter().any(|corners| {
+            if !corners.iter().all(|corner| corner.is_finite()) {
+                return true;
+            }
+            if parallel {
+                let depth_m = |corner: &DVec3| (*corner - eye).dot(forward);
+                return corners.iter().map(depth_m).fold(f64::INFINITY, f64::min) <= 0.0;
+            }
+            let low = corners.iter().fold(DVec3::INFINITY, |low, corner| low.min(*corner));
+            let high = corners.iter().fold(DVec3::NEG_INFINITY, |high, corner| high.max(*corner));
+            eye.cmpge(low).all() && eye.cmple(high).all()
+        })
     }
 
     /// No body's bounds reach into the image, and nobody asks for its buffers.
@@ -72,9 +91,16 @@ impl Inputs<'_> {
             && !geometry.disperses
     }
 
-    /// Opaque surfaces stand around the bodies.
+    /// Opaque surfaces stand around the bodies, and are drawn.
     pub(crate) fn draws_backdrop(&self) -> bool {
-        !self.geometry.opaque.is_empty()
+        !self.geometry.opaque.is_empty() && !self.method.follows_rays
+    }
+
+    /// Rays meet the bodies and what stands around them, and there is something
+    /// that they can change.
+    pub(crate) fn follows_rays(&self) -> bool {
+        let alone = self.geometry.opaque.is_empty();
+        self.method.follows_rays && !(alone && (self.index_matched || self.is_off_screen()))
     }
 
     /// The scene has cracks and the method can show them.

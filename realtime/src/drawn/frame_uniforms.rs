@@ -9,9 +9,9 @@ use crate::gpu::Gpu;
 use crate::gpu::allocator::Allocator;
 use crate::gpu::resources::Outputs;
 use encase::ShaderType;
-use glam::{DMat4, DVec2, DVec3, Mat4, Vec2, Vec3, Vec4};
+use glam::{DMat4, DVec2, DVec3, IVec3, Mat4, Vec2, Vec3, Vec4};
 
-use scenes::{Camera, Environment};
+use scenes::{Camera, Environment, Projection};
 
 /// What a frame shows.
 #[derive(Clone, Copy)]
@@ -42,6 +42,14 @@ pub(crate) struct FrameUniform {
     pub(crate) layer_capacity: u32,
     pub(crate) middle_lc: Vec3,
     pub(crate) ball_lc: Vec3,
+    pub(crate) waist_lc: Vec3,
+    pub(crate) waist_depth_m: f32,
+    pub(crate) unit_m: f32,
+    pub(crate) waist_fixed: IVec3,
+    pub(crate) across_fixed: IVec3,
+    pub(crate) across_rest: Vec3,
+    pub(crate) down_fixed: IVec3,
+    pub(crate) down_rest: Vec3,
 }
 
 /// Writes the bodies' numbers, and the frame's before layers are counted.
@@ -84,6 +92,7 @@ pub(crate) fn numbers(view: &Viewed<'_>, layer_capacity: u32) -> FrameUniform {
     let Viewed { geometry, camera, eta_outside, resolution_px, shift, .. } = *view;
     let extent = geometry.extent;
     let basis = camera.basis();
+    let waist = Waist::new(view);
     // The image moves against the pixels by as much as their positions move in it.
     let shifted = DMat4::from_translation(DVec3::new(-2.0 * shift.x, 2.0 * shift.y, 0.0));
     let clip_from_lc = shifted
@@ -103,6 +112,52 @@ pub(crate) fn numbers(view: &Viewed<'_>, layer_capacity: u32) -> FrameUniform {
         middle_lc: geometry.middle_lc,
         ball_lc: (extent.middle - extent.origin).as_vec3(),
         shift_px: (shift * DVec2::from_array(resolution_px.map(f64::from))).as_vec2(),
+        waist_lc: waist.middle.as_vec3(),
+        waist_depth_m: waist.depth_m as f32,
+        unit_m: waist.unit_m as f32,
+        waist_fixed: waist.corner.round().as_ivec3(),
+        across_fixed: waist.across.round().as_ivec3(),
+        across_rest: (waist.across - waist.across.round()).as_vec3(),
+        down_fixed: waist.down.round().as_ivec3(),
+        down_rest: (waist.down - waist.down.round()).as_vec3(),
+    }
+}
+
+/// The plane across the view where the bodies are. Places on it in units hold what of the
+/// pixels' rays 32 bits of float cannot.
+struct Waist {
+    unit_m: f64,
+    depth_m: f64,
+    /// Where the viewing axis meets it, local space.
+    middle: DVec3,
+    /// Upper left corner of the image, and half a pixel across and down, units.
+    corner: DVec3,
+    across: DVec3,
+    down: DVec3,
+}
+
+impl Waist {
+    fn new(view: &Viewed<'_>) -> Self {
+        let Viewed { geometry, camera, resolution_px, shift, .. } = *view;
+        let (origin, basis) = (geometry.extent.origin, camera.basis());
+        let depth_m = (origin - camera.eye).dot(basis.forward);
+        let unit_m = 2.0_f64.powf(geometry.extent.reach_m.log2().ceil() - 29.0);
+        let reach_m = match camera.projection {
+            Projection::Perspective { .. } => depth_m,
+            Projection::Orthographic { .. } => 1.0,
+        };
+        let half = camera.half_extent() * reach_m / unit_m;
+        let middle = camera.eye - origin + depth_m * basis.forward;
+        let shifted = 2.0 * shift - 1.0;
+        let from_middle = basis.right * half.x * shifted.x - basis.up * half.y * shifted.y;
+        Self {
+            unit_m,
+            depth_m,
+            middle,
+            corner: middle / unit_m + from_middle,
+            across: basis.right * half.x / f64::from(resolution_px[0]),
+            down: -basis.up * half.y / f64::from(resolution_px[1]),
+        }
     }
 }
 

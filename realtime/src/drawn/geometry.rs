@@ -2,12 +2,14 @@
 
 use crate::drawn::drawables::{Drawables, PlacedShape};
 use crate::drawn::extent::Extent;
+use crate::drawn::ray_tree::RayTree;
 use crate::drawn::uniforms::{Body, Bump, Light, MAX_BODIES, MAX_LIGHTS, Paint};
 use crate::error::Error;
 use glam::{DVec3, Vec3};
 use scenes::medium::RGB_WAVELENGTH_UM;
 use scenes::scene::Normals;
 use scenes::{Object, Scene, Shape, Surface, box_corners};
+use std::sync::OnceLock;
 
 /// Everything that is drawn, at the time of one frame.
 #[derive(Clone, Debug)]
@@ -49,6 +51,13 @@ pub(crate) struct Geometry {
     pub(crate) changes: bool,
     /// Some body deforms, so that distances through it change.
     pub(crate) deforms: bool,
+    /// Bodies and opaque surfaces of the first frame, if something moves and rays are
+    /// followed.
+    first: Option<Box<[Drawables; 2]>>,
+    /// Of the camera's eye from the local origin, metres.
+    eye_distance_m: f64,
+    /// What rays meet, made when it is first asked for.
+    rays: OnceLock<RayTree>,
 }
 
 fn is_solid(object: &Object) -> bool {
@@ -58,6 +67,16 @@ fn is_solid(object: &Object) -> bool {
 impl Geometry {
     /// What a frame shows.
     pub(crate) fn new(scene: &Scene, frame: u32) -> Result<Self, Error> {
+        Self::about(scene, frame, false)
+    }
+
+    /// The same for methods that follow rays: those go everywhere in the bodies, so the
+    /// local origin is their middle.
+    pub(crate) fn for_rays(scene: &Scene, frame: u32) -> Result<Self, Error> {
+        Self::about(scene, frame, true)
+    }
+
+    fn about(scene: &Scene, frame: u32, middle_is_origin: bool) -> Result<Self, Error> {
         let time_s = scene.time_s(frame);
         let (solids, opaque): (Vec<&Object>, Vec<&Object>) =
             scene.objects.iter().partition(|object| is_solid(object));
@@ -65,7 +84,10 @@ impl Geometry {
         at_most("opaque objects", opaque.len(), MAX_BODIES)?;
         at_most("lights", scene.lights.len(), MAX_LIGHTS)?;
         scene.media.iter().try_for_each(|medium| medium.check_at(RGB_WAVELENGTH_UM))?;
-        let extent = Extent::new(scene, &solids, time_s);
+        let mut extent = Extent::new(scene, &solids, time_s);
+        if middle_is_origin {
+            extent.origin = extent.middle;
+        }
         let centre = extent.origin;
         let moves = |object: &&Object| object.motion.is_some() || object.deform.is_some();
         let mut geometry = Self {
@@ -87,6 +109,9 @@ impl Geometry {
             nested: false,
             changes: scene.objects.iter().any(|object| moves(&object)),
             deforms: solids.iter().any(|object| object.deform.is_some()),
+            eye_distance_m: (scene.camera.eye - centre).length(),
+            first: None,
+            rays: OnceLock::new(),
         };
         let numbers = numbered(&solids);
         geometry.nested = numbers.iter().any(|solid| *solid > 0);
@@ -102,6 +127,22 @@ impl Geometry {
     /// Everything that some pass draws.
     pub(crate) fn drawn(&self) -> [&Drawables; 4] {
         [&self.bodies, &self.opaque, &self.cracks, &self.air]
+    }
+
+    /// What rays meet.
+    pub(crate) fn rays(&self) -> &RayTree {
+        let reach_m = self.extent.reach_m.max(self.eye_distance_m);
+        let first = self.first.as_ref().map(|first| [&first[0], &first[1]]);
+        self.rays.get_or_init(|| RayTree::new([&self.bodies, &self.opaque], first, reach_m))
+    }
+
+    /// Lets rays meet the tree of the first frame, refitted, where something moves.
+    pub(crate) fn remember_first(&mut self, scene: &Scene) -> Result<(), Error> {
+        if self.changes {
+            let first = Self::for_rays(scene, 0)?;
+            self.first = Some(Box::new([first.bodies, first.opaque]));
+        }
+        Ok(())
     }
 
     fn add_body(

@@ -7,5 +7,7 @@ pub(crate) mod extent;
 pub(crate) mod frame_uniforms;
 pub(crate) mod geometry;
 pub(crate) mod projection;
+pub(crate) mod ray_refit;
+pub(crate) mod ray_tree;
 pub(crate) mod thickness;
 pub(crate) mod uniforms;

@@ -2,7 +2,7 @@
 //! everything has been moved to the centre of the scene's bodies; the only other
 //! place is the environment's radiance, which has no position.
 
-use encase::{ShaderType, UniformBuffer};
+use encase::{ShaderType, StorageBuffer, UniformBuffer};
 use glam::{DAffine3, DMat4, DVec3, Mat4, Vec3, Vec4};
 use scenes::Surface;
 
@@ -150,6 +150,13 @@ pub(crate) fn bytes_of<T: ShaderType + encase::internal::WriteInto>(value: &T) -
     buffer.into_inner()
 }
 
+/// The bytes of a list in storage.
+pub(crate) fn stored_bytes_of<T: ShaderType + encase::internal::WriteInto>(value: &T) -> Vec<u8> {
+    let mut buffer = StorageBuffer::new(Vec::new());
+    buffer.write(value).expect("a Vec takes any number of bytes");
+    buffer.into_inner()
+}
+
 impl Analytic {
     pub(crate) fn new(
         world_from_object: &DAffine3,
@@ -174,6 +181,7 @@ mod tests {
     #![allow(clippy::unwrap_used, reason = "a test that cannot read the shader must fail")]
     use super::*;
     use crate::drawn::frame_uniforms::FrameUniform;
+    use crate::drawn::ray_tree::RayAnalytic;
 
     type Layout = (Vec<(String, u32)>, u32);
 
@@ -203,7 +211,11 @@ mod tests {
         }};
     }
 
-    const RUST: &str = concat!(include_str!("uniforms.rs"), include_str!("frame_uniforms.rs"));
+    const RUST: &str = concat!(
+        include_str!("uniforms.rs"),
+        include_str!("frame_uniforms.rs"),
+        include_str!("ray_tree.rs")
+    );
     const FRAME: &str = include_str!("../shaders/core/frame.wgsl");
 
     #[test]
@@ -216,6 +228,8 @@ mod tests {
         };
         let analytic = before_bindings("raster_analytic");
         assert_eq!(in_rust!(Analytic), in_wgsl(&analytic, "Analytic"));
+        let ray_analytic = before_bindings("ray_analytic");
+        assert_eq!(in_rust!(RayAnalytic), in_wgsl(&ray_analytic, "RayAnalytic"));
         assert_eq!(in_rust!(Bump), in_wgsl(&before_bindings("bump"), "Bump"));
         assert_eq!(in_rust!(Interior), in_wgsl(&before_bindings("interior"), "Interior"));
         let opaque = before_bindings("opaque");

@@ -33,6 +33,8 @@ pub struct Method {
     pub parameters: &'static [Parameter],
     /// Traces red and blue light on ways of their own where a medium disperses.
     pub traces_colours: bool,
+    /// Meets the bodies by rays of its own: nothing is drawn for it.
+    pub follows_rays: bool,
     /// Its WGSL.
     pub(crate) source: Source,
     from_user: bool,
@@ -136,6 +138,7 @@ impl Method {
             bibtex: head.citation.leak(),
             parameters: &[],
             traces_colours: !head.one_way_for_all_colours,
+            follows_rays: head.follows_rays,
             source,
             from_user: false,
         }

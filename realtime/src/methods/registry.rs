@@ -135,6 +135,28 @@ static ROWS: &[Row] = &[
             MAX_LAYERS,
         ],
     },
+    Row {
+        id: "traced",
+        parameters: &[
+            whole(
+                "samples",
+                0.0,
+                0.0,
+                4096.0,
+                "",
+                "ways of the light per position, chosen by chance at every interface; 0: the one that always goes through where it can",
+            ),
+            whole("seed", 0.0, 0.0, 4294967295.0, "", "of the chances"),
+            whole(
+                "max_events",
+                1024.0,
+                1.0,
+                20000.0,
+                "",
+                "interfaces of one way; what needs more is dark and flagged",
+            ),
+        ],
+    },
 ];
 
 const fn number(

@@ -70,6 +70,12 @@ impl Settings {
         }
     }
 
+    /// The seed of the random numbers, if any are drawn.
+    pub(crate) fn seed(&self) -> Option<u64> {
+        let drawn = self.whole_if_any("samples").is_some_and(|samples| samples > 0);
+        self.whole_if_any("seed").filter(|_| drawn).map(u64::from)
+    }
+
     /// A word.
     ///
     /// # Panics

@@ -15,6 +15,7 @@ use super::{Composed, Listed, Maker, Making, Pass, Ready, Record, Wanted};
 use crate::composition::chosen;
 use crate::composition::inputs::Inputs;
 use crate::drawn::frame_uniforms::{self, FrameUniform, Viewed};
+use crate::drawn::geometry::Geometry;
 use crate::drawn::uniforms::{self, MAX_BODIES, MAX_LIGHTS};
 use crate::error::Error;
 use crate::gpu::Gpu;
@@ -116,6 +117,10 @@ impl Pass for Backdrop {
         false
     }
 
+    fn draws_bodies(&self) -> bool {
+        false
+    }
+
     fn plan(&self, entries: &mut Entries<'_>) {
         let geometry = entries.geometry;
         entries.buffer("surroundings", uniforms::Surroundings::min_size().get());
@@ -178,15 +183,7 @@ impl Backdrop {
         allocator: &Allocator<'_>,
         view: &Viewed<'_>,
     ) -> Result<Outputs, Error> {
-        let geometry = view.geometry;
-        let mut numbers = uniforms::Surroundings {
-            paints: [uniforms::Paint::default(); MAX_BODIES],
-            lights: [uniforms::Light::default(); MAX_LIGHTS],
-            light_count: geometry.lights.len() as u32,
-        };
-        numbers.paints[..geometry.paints.len()].copy_from_slice(&geometry.paints);
-        numbers.lights[..geometry.lights.len()].copy_from_slice(&geometry.lights);
-        let bytes = uniforms::bytes_of(&numbers);
+        let bytes = surroundings_bytes(view.geometry);
         let mut outputs = match &self.background.behind {
             Some(behind) => {
                 let reader = (behind, "sky_fragment");
@@ -198,6 +195,18 @@ impl Backdrop {
         outputs.buffer("surroundings", buffer);
         Ok(outputs)
     }
+}
+
+/// Paints and lights, as the shaders see them.
+pub(super) fn surroundings_bytes(geometry: &Geometry) -> Vec<u8> {
+    let mut numbers = uniforms::Surroundings {
+        paints: [uniforms::Paint::default(); MAX_BODIES],
+        lights: [uniforms::Light::default(); MAX_LIGHTS],
+        light_count: geometry.lights.len() as u32,
+    };
+    numbers.paints[..geometry.paints.len()].copy_from_slice(&geometry.paints);
+    numbers.lights[..geometry.lights.len()].copy_from_slice(&geometry.lights);
+    uniforms::bytes_of(&numbers)
 }
 
 /// The surroundings, ready to be drawn.

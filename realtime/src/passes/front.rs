@@ -36,7 +36,9 @@ fn compose(inputs: &Inputs<'_>, wanted: &Wanted<'_>) -> Composed {
 }
 
 fn absent(entries: &mut Entries<'_>) {
-    let reason = "no body is in the image";
+    let rays = entries.inputs.follows_rays();
+    let reason =
+        if rays { "rays meet the bodies by themselves" } else { "no body is in the image" };
     let bytes = entries.pixels * (16 + 4 + 4);
     entries.plan.leave_out(Kind::Pass, "front", reason, bytes);
     entries.thickness(false);

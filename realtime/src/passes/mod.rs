@@ -10,6 +10,7 @@ pub(crate) mod peel;
 mod pipelines;
 mod raster_pass;
 mod raster_state;
+pub(crate) mod rays;
 pub(crate) mod shade;
 
 pub(crate) use pipelines::Maker;
@@ -28,6 +29,11 @@ use glam::DVec2;
 pub(crate) trait Pass {
     /// Some shader of it reads a global.
     fn reads(&self, global: &str) -> bool;
+
+    /// It draws the bodies' triangles.
+    fn draws_bodies(&self) -> bool {
+        true
+    }
 
     /// Adds its passes and buffers to a plan, and what it leaves out.
     fn plan(&self, entries: &mut Entries<'_>);

@@ -26,7 +26,10 @@ struct Shade {
 }
 
 fn compose(inputs: &Inputs<'_>, _: &Wanted<'_>) -> Composed {
-    let roots: &[&str] = if inputs.is_off_screen() {
+    let rays = inputs.method.follows_rays;
+    let roots: &[&str] = if inputs.follows_rays() {
+        &["shade_rays"]
+    } else if inputs.is_off_screen() || rays {
         &["shade_background"]
     } else if inputs.may_need_anything() {
         &["shade", "anything"]
@@ -43,6 +46,10 @@ fn compose(inputs: &Inputs<'_>, _: &Wanted<'_>) -> Composed {
 impl Pass for Shade {
     fn reads(&self, global: &str) -> bool {
         self.shader.uses(&[ENTRY_POINT], global)
+    }
+
+    fn draws_bodies(&self) -> bool {
+        false
     }
 
     fn plan(&self, entries: &mut Entries<'_>) {

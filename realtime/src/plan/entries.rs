@@ -25,13 +25,15 @@ pub(crate) struct Entries<'a> {
     /// Layers, which are counted on the GPU; before that, the bytes of one are
     /// stated.
     pub(crate) counted: Option<Counted>,
+    /// Some pass draws the bodies' triangles.
+    pub(crate) draws_bodies: bool,
 }
 
 impl<'a> Entries<'a> {
     pub(crate) fn new(inputs: &'a Inputs<'a>, geometry: &'a Geometry) -> Self {
         let pixels = inputs.resolution_px.map(u64::from).iter().product();
         let plan = Plan::default();
-        Self { plan, inputs, geometry, pixels, repeated: false, counted: None }
+        Self { plan, inputs, geometry, pixels, repeated: false, counted: None, draws_bodies: true }
     }
 
     pub(crate) fn pass(&mut self, name: &str) {
@@ -62,7 +64,9 @@ impl<'a> Entries<'a> {
         } else {
             self.plan.leave_out(Kind::Binding, "bumps", "every surface is smooth", bumps);
         }
-        self.corners(&geometry.bodies);
+        if self.draws_bodies {
+            self.corners(&geometry.bodies);
+        }
         let plan = &mut self.plan;
         if !geometry.bodies.smooth {
             let reason = "normals are flat or analytic";

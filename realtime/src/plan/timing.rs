@@ -6,6 +6,8 @@ use scenes::rendering::{Pass, Time, TimeSource};
 
 /// Finding the distances along the normals, on the CPU.
 pub(crate) const THICKNESS: &str = "distances along normals";
+/// Fitting the boxes that rays search to where things have moved, on the CPU.
+pub(crate) const REFIT: &str = "boxes refitted";
 /// Name of the entry with the wall time of a frame.
 const WHOLE_FRAME: &str = "frame";
 
@@ -28,21 +30,23 @@ impl FrameTimes {
         self.layer_bytes = self.layer_bytes.max(counted.bytes());
     }
 
-    /// `thickness_ms`: what the CPU did before the frame, and would before every
-    /// other.
+    /// `on_cpu`: what the CPU did before the frame, and would before every other.
     pub(crate) fn add(
         &mut self,
         label: &str,
         executed: &[String],
         timed: &[Executed],
-        thickness_ms: Option<f64>,
+        on_cpu: &[(&str, Option<f64>)],
     ) {
         self.count += executed.len() as u64;
         self.timed_frames += timed.len() as u64;
-        if let Some(milliseconds) = thickness_ms {
+        let mut cpu_ms = 0.0;
+        for (name, milliseconds) in on_cpu {
+            let Some(milliseconds) = *milliseconds else { continue };
             self.count += 1;
+            cpu_ms += milliseconds;
             let times = vec![Time::once(TimeSource::Cpu, milliseconds)];
-            self.passes.push(Pass { name: format!("{label}{THICKNESS}"), times });
+            self.passes.push(Pass { name: format!("{label}{name}"), times });
         }
         let passes = executed.iter().enumerate();
         self.passes.extend(passes.map(|(index, name)| Pass {
@@ -50,8 +54,7 @@ impl FrameTimes {
             times: timestamp(timed, index),
         }));
         if !timed.is_empty() {
-            let before_ms = thickness_ms.unwrap_or(0.0);
-            let frames_ms = timed.iter().map(|frame| frame.wall_ms + before_ms).collect();
+            let frames_ms = timed.iter().map(|frame| frame.wall_ms + cpu_ms).collect();
             let times = vec![measured(TimeSource::Wall, frames_ms)];
             self.passes.push(Pass { name: format!("{label}{WHOLE_FRAME}"), times });
         }

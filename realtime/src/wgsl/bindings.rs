@@ -32,11 +32,16 @@ const BINDINGS: &[(u32, &[&str])] = &[
     (26, &["cascade", "dual_bounds"]),
     (27, &["dual_normals"]),
     (28, &["peel_frame"]),
+    (29, &["ray_nodes"]),
+    (30, &["ray_triangles"]),
+    (31, &["ray_analytic"]),
     (32, &["out_radiance"]),
     (33, &["out_exit"]),
     (34, &["out_first"]),
     (35, &["out_hit2"]),
     (36, &["out_count"]),
+    (38, &["ray_normals"]),
+    (39, &["ray_bodies"]),
 ];
 
 #[cfg(test)]

@@ -8,6 +8,7 @@
 //! | `// at vertices: FILE` | makes `vertex_vector()`: the method works at vertices |
 //! | `// parameter: NAME = DEFAULT [MIN to MAX UNIT]: MEANING` | what can be set, of a user's method; `whole MIN to MAX` for whole numbers |
 //! | `// bends at equal index` | the method changes the image even where indices are equal |
+//! | `// follows rays` | the method meets the bodies by rays: nothing is drawn for it |
 //! | `// one way for all colours` | the method does not trace red and blue on their own |
 //!
 //! All other lines are the description.
@@ -36,6 +37,7 @@ pub(crate) struct Head {
     pub(crate) parameters: Vec<(usize, String)>,
     pub(crate) bends_at_equal_index: bool,
     pub(crate) one_way_for_all_colours: bool,
+    pub(crate) follows_rays: bool,
 }
 
 impl Source {
@@ -78,6 +80,7 @@ impl Source {
                 ("parameter", value) => head.parameters.push((number, value.to_owned())),
                 ("at vertices", value) => head.at_vertices = Some(value.to_owned()),
                 ("bends at equal index", _) => head.bends_at_equal_index = true,
+                ("follows rays", _) => head.follows_rays = true,
                 ("one way for all colours", _) => head.one_way_for_all_colours = true,
                 _ => about.push(line.trim()),
             }

@@ -4,11 +4,14 @@
 use super::media_optics::Side;
 use super::path::{Met, Path};
 use super::tracer::Tracer;
+use crate::request::Disturbance;
 use crate::world::flight::Flight;
 use crate::world::scratch::Scratch;
 use crate::world::winding::Winding;
 use glam::DVec3;
 use scenes::layer::flag;
+use scenes::noise::SplitMix64;
+use std::f64::consts::TAU;
 
 /// What is known about a chain when it ends.
 #[derive(Clone, Debug, Default)]
@@ -40,13 +43,29 @@ impl Chain {
     }
 }
 
+/// Turns a ray aside and moves its origin along the surface that it leaves.
+fn disturb<W>(flight: &mut Flight<W>, by: Disturbance, normal: DVec3, event: u32) {
+    let mut chance = SplitMix64(by.seed.wrapping_mul(0x1_0000_0001) ^ u64::from(event));
+    let (sine, cosine) = (TAU * chance.uniform()).sin_cos();
+    let aside = |axis: DVec3| {
+        let (one, other) = axis.any_orthonormal_pair();
+        by.share * (one * cosine + other * sine)
+    };
+    flight.direction = (flight.direction + aside(flight.direction)).normalize();
+    flight.origin += aside(normal) * flight.origin.abs().max_element();
+}
+
 impl Tracer<'_> {
     /// Traces the chain of a ray from the camera.
     pub(crate) fn chain<W: Winding, const UNIFORM: bool, const LENGTHS: bool>(
         &self,
-        flight: Flight<W>,
+        mut flight: Flight<W>,
         scratch: &mut Scratch,
     ) -> Chain {
+        if self.disturbance.share > 0.0 {
+            let along = flight.direction;
+            disturb(&mut flight, self.disturbance, along, 0);
+        }
         let optics = &self.d_line;
         let mut chain = Chain::default();
         if LENGTHS {
@@ -69,6 +88,11 @@ impl Tracer<'_> {
             chain.total_reflections += u32::from(fork.is_total());
             chain.flags |= if fork.bend.geometric { flag::GEOMETRIC_NORMAL } else { 0 };
             let again = path.go_on(&fork, Side::Transmitted, optics);
+            if self.disturbance.share > 0.0 {
+                let event = path.so_far.events;
+                let normal = fork.event.spot.normals.geometric;
+                disturb(&mut path.flight, self.disturbance, normal, event);
+            }
             let chain = &mut path.so_far.own;
             chain.flags |= if again { flag::GEOMETRIC_NORMAL } else { 0 };
             match path.so_far.events {

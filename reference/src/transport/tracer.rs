@@ -1,7 +1,7 @@
 //! What every way of tracing shares: the scene, its light, and where rays start.
 
 use crate::receiver::map::CausticMap;
-use crate::request::{EnvironmentLookup, Request, Restriction};
+use crate::request::{Disturbance, EnvironmentLookup, Request, Restriction};
 use crate::transport::media_optics::MediaOptics;
 use crate::transport::spectrum::{D_LINE_UM, Wavelength};
 use crate::world::flight::{Flight, Start};
@@ -21,6 +21,8 @@ pub(crate) struct Tracer<'a> {
     /// What light is made of; one where nothing disperses.
     pub(crate) wavelengths: Vec<Wavelength>,
     pub(crate) restriction: Restriction,
+    /// Of every event of a chain.
+    pub(crate) disturbance: Disturbance,
     pub(crate) lookup: EnvironmentLookup,
     /// Winding counts at the eye, if all rays start there.
     pub(crate) eye_counts: Option<Vec<i16>>,
@@ -85,6 +87,7 @@ impl<'a> Tracer<'a> {
             d_line,
             wavelengths,
             restriction,
+            disturbance: request.disturbance,
             lookup,
             eye_counts,
             may_trap,

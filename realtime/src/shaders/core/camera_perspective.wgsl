@@ -12,6 +12,12 @@ fn view_origin_lc(position_px: vec2f) -> vec3f {
     return frame.eye_lc;
 }
 
+// A point of a pixel's ray near the bodies, more precise than one far from them.
+fn waist_of_ray_lc(position_px: vec2f) -> vec3f {
+    let at = frame.waist_depth_m * on_image_plane(position_px);
+    return frame.waist_lc + at.x * frame.right_ws + at.y * frame.up_ws;
+}
+
 fn direction_to_ws(p_lc: vec3f) -> vec3f {
     return normalize(p_lc - frame.eye_lc);
 }

@@ -17,6 +17,14 @@ struct Frame {
     layer_capacity: u32,        // interfaces per pixel that are kept
     middle_lc: vec3f,           // of the bodies
     ball_lc: vec3f,             // centre of the ball around all bodies
+    waist_lc: vec3f,            // on the viewing axis, nearest to the local origin
+    waist_depth_m: f32,         // its depth
+    unit_m: f32,                // of fixed places: a power of two, 2^-29 to 2^-30 of the reach
+    waist_fixed: vec3i,         // of the upper left corner, in units
+    across_fixed: vec3i,        // half a pixel to the right at the waist, whole units
+    across_rest: vec3f,         // and parts of a unit
+    down_fixed: vec3i,          // half a pixel down
+    down_rest: vec3f,
 }
 
 struct Body {

@@ -36,18 +36,23 @@ fn irradiance(light: Light, p_lc: vec3f, n_ws: vec3f) -> vec3f {
 }
 
 fn opaque_light(v: Varyings) -> vec4f {
-    let paint = surroundings.paints[u32(v.body + 0.5) - 1u];
-    let cell = floor((paint.object_from_lc * vec4f(v.p_lc, 1.0)).xyz / paint.size_m);
+    let number = u32(v.body + 0.5) - 1u;
+    return vec4f(light_of_surface(number, v.p_lc, normalize(v.normal_ws), direction_to_ws(v.p_lc)), 1.0);
+}
+
+// Towards a ray of direction d_ws that meets the surface.
+fn light_of_surface(number: u32, p_lc: vec3f, outward_ws: vec3f, d_ws: vec3f) -> vec3f {
+    let paint = surroundings.paints[number];
+    let cell = floor((paint.object_from_lc * vec4f(p_lc, 1.0)).xyz / paint.size_m);
     let sum = cell.x + cell.y + cell.z;
     let colour = select(paint.first, paint.second, sum - 2.0 * floor(0.5 * sum) > 0.5);
     if (paint.lit == 0u) {
-        return vec4f(colour, 1.0);
+        return colour;
     }
-    let outward_ws = normalize(v.normal_ws);
-    let n_ws = select(-outward_ws, outward_ws, dot(outward_ws, direction_to_ws(v.p_lc)) < 0.0);
+    let n_ws = select(-outward_ws, outward_ws, dot(outward_ws, d_ws) < 0.0);
     var light = vec3f(0.0);
     for (var i = 0u; i < surroundings.light_count; i += 1u) {
-        light += irradiance(surroundings.lights[i], v.p_lc, n_ws);
+        light += irradiance(surroundings.lights[i], p_lc, n_ws);
     }
-    return vec4f(colour * light / 3.14159265, 1.0);
+    return colour * light / 3.14159265;
 }
