@@ -75,6 +75,8 @@ pub struct Description {
     pub encoding: Option<Encoding>,
     /// Its value for equal images, which need not be computed; `None`: infinite.
     pub if_equal: Option<f64>,
+    /// Why it has no interval; empty if it can have one.
+    pub no_interval: &'static str,
 }
 
 use Better::{Higher, Lower, NearZero, Neither};
@@ -90,7 +92,8 @@ const fn new(
     source: &'static str,
 ) -> Description {
     let (of, encoding, if_equal) = (Compared::Radiance, None, Some(0.0));
-    Description { name, formula, unit, range, better, source, of, encoding, if_equal }
+    let no_interval = "";
+    Description { name, formula, unit, range, better, source, of, encoding, if_equal, no_interval }
 }
 
 impl Description {
@@ -102,6 +105,10 @@ impl Description {
         Self { encoding: Some(encoding), ..self }
     }
 
+    const fn without_interval(self, why: &'static str) -> Self {
+        Self { no_interval: why, ..self }
+    }
+
     const fn if_equal(self, value: Option<f64>) -> Self {
         Self { if_equal: value, ..self }
     }
@@ -111,6 +118,7 @@ const ANGLE: &str = "∠ = atan2(|a × b|, a · b) where both chains leave";
 const FLIP: &str = "Andersson et al. 2020 (LDR), 2021 (HDR); FLIP 1.7";
 const WANG: &str = "Wang et al. 2004, IEEE TIP 13(4)";
 const PLAIN: &str = "elementary";
+const OF_THESE: &str = "it tells of these very pixels";
 const TONE_MAPPED_PSNR: &str =
     "10 log10(255² / mean d²) of 8-bit code values: x/(1+x), sRGB curve, rounded half up";
 const TONE_MAPPED_SSIM: &str =
@@ -180,10 +188,12 @@ impl Metric {
             Self::WorstThousandth => {
                 let formula = "share of relmse_e1e-2 that the ⌊N/1000⌋ worst pixels carry";
                 new("relmse_e1e-2_share_worst0.1", "", "0 to 1", Neither, formula, PLAIN)
+                    .without_interval(OF_THESE)
             }
             Self::WorstHundred => {
                 let formula = "share of relmse_e1e-2 that the 100 worst pixels carry";
                 new("relmse_e1e-2_share_worst100", "", "0 to 1", Neither, formula, PLAIN)
+                    .without_interval(OF_THESE)
             }
             Self::HdrFlip => {
                 let formula = "mean HDR-FLIP, ACES, 67.02 pixels per degree, pinned exposures";
@@ -201,7 +211,8 @@ impl Metric {
                 let formula = "mean (d² - variance of r): the reference's noise subtracted";
                 new("mse_corrected", "radiance²", "any", Lower, formula, PLAIN).only(Linear)
             }
-            Self::MaxAbs => new("max_abs", "radiance", up, Lower, "max |d|", PLAIN),
+            Self::MaxAbs => new("max_abs", "radiance", up, Lower, "max |d|", PLAIN)
+                .without_interval("a largest value is no mean"),
             Self::Mape => new("mape_e1e-2", "", up, Lower, "mean |d| / (|r| + 0.01)", PLAIN),
             Self::Smape => {
                 let formula = "mean 2|d| / (|r| + |t| + 0.02)";

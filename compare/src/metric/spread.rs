@@ -35,12 +35,9 @@ pub(super) fn interval(
     pixels: Option<&[usize]>,
     value: f64,
 ) -> Result<(f64, f64), &'static str> {
-    match metric {
-        Metric::MaxAbs => return Err("a largest value is no mean"),
-        Metric::WorstThousandth | Metric::WorstHundred => {
-            return Err("it tells of these very pixels");
-        }
-        _ => {}
+    let why = metric.describe().no_interval;
+    if !why.is_empty() {
+        return Err(why);
     }
     let lattices = sub_lattices(pair.size_px, pixels);
     if lattices.iter().any(|lattice| lattice.len() < FEWEST_PIXELS) {

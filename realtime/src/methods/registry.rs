@@ -142,7 +142,7 @@ static ROWS: &[Row] = &[
                 "samples",
                 0.0,
                 0.0,
-                4096.0,
+                8.0,
                 "",
                 "ways of the light per position, chosen by chance at every interface; 0: the one that always goes through where it can",
             ),

@@ -11,5 +11,6 @@
 // Follows the exact chain in 32 bits through the bodies' own triangles and formulas, total
 // reflections, nested media and opaque surroundings included; with samples, all ways of the
 // light by chance. Beside the exact image it is the same: without samples there are no
-// highlights and no reflections but the total ones, with few samples there is grain, and after
-// many events single pixels differ.
+// highlights and no reflections but the total ones, with samples there is grain (at most eight
+// per position: a driver that bounds loops loses the light of more), and after many events
+// single pixels differ.
